@@ -1,0 +1,28 @@
+#include "job.hpp"
+
+#include "status.hpp"
+
+namespace tetlod {
+
+namespace {
+constexpr std::chrono::milliseconds progress_interval{5};
+constexpr double no_limit = 1e9;
+}  // namespace
+
+double Job::seconds_left() const {
+  if (time_limit <= 0) return no_limit;
+  return time_limit - std::chrono::duration<double>(Clock::now() - begin_).count();
+}
+
+void Job::poll(double fraction) {
+  if (cancel && cancel->load(std::memory_order_relaxed)) fail(Status::cancelled, "cancelled by tetlod_cancel");
+  if (seconds_left() <= 0)
+    fail(Status::time_limit, "the time limit of %s seconds is used up", number(time_limit).c_str());
+  if (!progress || std::this_thread::get_id() != owner_) return;
+  const Clock::time_point now = Clock::now();
+  if (now - last_call_ < progress_interval) return;
+  last_call_ = now;
+  if (progress(stage_, fraction)) fail(Status::cancelled, "cancelled by the progress callback");
+}
+
+}  // namespace tetlod

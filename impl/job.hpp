@@ -1,0 +1,54 @@
+// What a stage needs from the run that it is part of: memory, threads, and somebody who may say stop.
+#pragma once
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <thread>
+
+#include "memory.hpp"
+#include "parallel.hpp"
+
+namespace tetlod {
+
+/// The stages in the paper's order; the numbers are those of the C ABI.
+enum class Stage : std::int32_t { prepare = 0, boundary, decimate, sample, cull, remesh, values, count };
+
+class Job {
+ public:
+  /// Called on the thread that made the job, at most every few milliseconds; true cancels.
+  using Progress = std::function<bool(Stage, double fraction)>;
+  /// level: 0 debug, 1 info, 2 warning.
+  using Log = std::function<void(int level, const char *message)>;
+
+  Job(Memory &memory, const Parallel &parallel) : memory(memory), parallel(parallel) {}
+
+  Memory &memory;
+  const Parallel &parallel;
+  Progress progress;
+  Log log;
+  const std::atomic<bool> *cancel = nullptr;  ///< set by tetlod_cancel from another thread
+  double time_limit = 0;                      ///< seconds for the whole run, 0: none
+
+  void enter(Stage stage) {
+    stage_ = stage;
+    last_call_ = {};
+    poll(0);
+  }
+
+  /// Call it at least every few milliseconds of work, from any thread. Throws Status::cancelled or
+  /// Status::time_limit. `fraction` of the stage that is done, in [0, 1].
+  void poll(double fraction);
+
+  /// Seconds until the time limit; a large number when there is none.
+  double seconds_left() const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Stage stage_ = Stage::prepare;
+  std::thread::id owner_ = std::this_thread::get_id();
+  Clock::time_point begin_ = Clock::now();
+  Clock::time_point last_call_{};
+};
+
+}  // namespace tetlod

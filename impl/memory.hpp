@@ -1,0 +1,64 @@
+// Where every array of the library lives: the caller's allocator behind a std::pmr resource that counts.
+#pragma once
+#include <atomic>
+#include <cstddef>
+#include <memory_resource>
+#include <vector>
+
+namespace tetlod {
+
+/// The caller's allocator (tetlod_config). Both functions may be called from several threads at once.
+struct AllocatorHooks {
+  void *(*allocate)(void *user, std::size_t bytes, std::size_t alignment) = nullptr;
+  void (*release)(void *user, void *pointer, std::size_t bytes, std::size_t alignment) = nullptr;
+  void *user = nullptr;
+};
+
+/// Counts the bytes in use and their peak, and refuses to pass `limit` (0: none) with Status::memory_limit.
+/// A hook that returns null becomes Status::memory. Thread-safe.
+class Memory final : public std::pmr::memory_resource {
+ public:
+  explicit Memory(AllocatorHooks hooks = {}, std::size_t limit = 0);
+  ~Memory() override;
+  Memory(const Memory &) = delete;
+  Memory &operator=(const Memory &) = delete;
+
+  std::size_t in_use() const noexcept { return in_use_.load(std::memory_order_relaxed); }
+  std::size_t peak() const noexcept { return peak_.load(std::memory_order_relaxed); }
+  std::size_t limit() const noexcept { return limit_; }
+  void reset_peak() noexcept { peak_.store(in_use(), std::memory_order_relaxed); }
+
+  /// Counts bytes that something else allocates for us (OpenMesh), so that limit and peak see them too.
+  void charge(std::size_t bytes);
+  void discharge(std::size_t bytes) noexcept;
+
+ private:
+  void *do_allocate(std::size_t bytes, std::size_t alignment) override;
+  void do_deallocate(void *pointer, std::size_t bytes, std::size_t alignment) override;
+  bool do_is_equal(const std::pmr::memory_resource &other) const noexcept override;
+
+  AllocatorHooks hooks_;
+  std::size_t limit_;
+  std::atomic<std::size_t> in_use_{0};
+  std::atomic<std::size_t> peak_{0};
+};
+
+/// A charge that ends with its scope.
+class MemoryCharge {
+ public:
+  MemoryCharge(Memory &memory, std::size_t bytes) : memory_(memory), bytes_(bytes) { memory_.charge(bytes); }
+  ~MemoryCharge() { memory_.discharge(bytes_); }
+  MemoryCharge(const MemoryCharge &) = delete;
+  MemoryCharge &operator=(const MemoryCharge &) = delete;
+
+ private:
+  Memory &memory_;
+  std::size_t bytes_;
+};
+
+/// An array in the caller's memory. Always construct with a Memory (a copy would silently leave it, so do
+/// not copy: move, or assign into an array that has one).
+template <class T>
+using Array = std::pmr::vector<T>;
+
+}  // namespace tetlod

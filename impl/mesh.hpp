@@ -1,0 +1,86 @@
+// The plain structs that the stages hand to each other.
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/common.hpp>
+#include <glm/vec3.hpp>
+#include <limits>
+
+#include "memory.hpp"
+
+namespace tetlod {
+
+using Vec3 = glm::dvec3;
+using Tet = std::array<std::int32_t, 4>;
+using Triangle = std::array<std::int32_t, 3>;
+
+/// Vertices and tets are numbered with 32 bits inside, and TetGen overflows beyond this many tets.
+constexpr std::int64_t max_count = (std::int64_t(1) << 29) - 1;
+
+/// A borrowed piece of contiguous memory.
+template <class T>
+class Span {
+ public:
+  constexpr Span() = default;
+  constexpr Span(T *data, std::size_t size) : data_(data), size_(size) {}
+  template <class U>
+  Span(const Array<U> &array) : data_(array.data()), size_(array.size()) {}
+  constexpr T *data() const { return data_; }
+  constexpr std::size_t size() const { return size_; }
+  constexpr bool empty() const { return size_ == 0; }
+  constexpr T &operator[](std::size_t i) const { return data_[i]; }
+  constexpr T *begin() const { return data_; }
+  constexpr T *end() const { return data_ + size_; }
+
+ private:
+  T *data_ = nullptr;
+  std::size_t size_ = 0;
+};
+
+/// The original mesh as the stages read it. Tets may have either winding; a point that no tet uses is allowed.
+struct MeshView {
+  Span<const Vec3> points;
+  Span<const double> scalars;  ///< one a point
+  Span<const Tet> tets;
+};
+
+/// The corners of the face opposite corner k, seen counter-clockwise from outside a tet with
+/// det(p1 - p0, p2 - p0, p3 - p0) > 0.
+constexpr int tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+
+/// A closed surface, triangles counter-clockwise seen from outside the solid. It may touch itself at
+/// vertices and along edges where the solid does (an edge then has four or more triangles).
+struct Surface {
+  explicit Surface(Memory &memory) : points(&memory), scalars(&memory), origin(&memory), triangles(&memory) {}
+  Array<Vec3> points;
+  Array<double> scalars;       ///< one a point
+  Array<std::int32_t> origin;  ///< the original vertex a point is, or -1 where decimation placed it
+  Array<Triangle> triangles;
+};
+
+/// A simplified mesh: every tet positive, boundary vertices first, then samples, then Steiner points.
+struct TetMesh {
+  explicit TetMesh(Memory &memory) : points(&memory), scalars(&memory), tets(&memory), boundary(&memory) {}
+  Array<Vec3> points;
+  Array<double> scalars;
+  Array<Tet> tets;
+  Array<Triangle> boundary;  ///< faces used once, outward
+};
+
+struct Box {
+  Vec3 low{std::numeric_limits<double>::infinity()};
+  Vec3 high{-std::numeric_limits<double>::infinity()};
+  void add(const Vec3 &p) {
+    for (int k = 0; k < 3; k++) {
+      low[k] = p[k] < low[k] ? p[k] : low[k];
+      high[k] = p[k] > high[k] ? p[k] : high[k];
+    }
+  }
+  void add(const Box &other) {
+    low = glm::min(low, other.low);
+    high = glm::max(high, other.high);
+  }
+};
+
+}  // namespace tetlod

@@ -1,0 +1,60 @@
+// Parallel loops over blocks of fixed size: the same partial results in the same order for any number of threads.
+#pragma once
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+
+namespace tetlod {
+
+/// One arena per context; with one thread nothing of oneTBB is touched.
+class Parallel {
+ public:
+  explicit Parallel(int threads = 1) : threads_(threads) {
+    if (threads > 1) arena_ = std::make_unique<tbb::task_arena>(threads);
+  }
+  int threads() const noexcept { return threads_; }
+
+  /// body(begin, end) for consecutive blocks of `block` indices that cover [0, count). The blocks do not depend
+  /// on the number of threads, so a sum per block, added up in block order, is deterministic.
+  template <class Body>
+  void for_blocks(std::size_t count, std::size_t block, const Body &body) const {
+    const std::size_t blocks = (count + block - 1) / block;
+    const auto run = [&](std::size_t b) { body(b * block, std::min(count, (b + 1) * block)); };
+    if (!arena_ || blocks < 2) {
+      for (std::size_t b = 0; b < blocks; b++) run(b);
+      return;
+    }
+    arena_->execute([&] { tbb::parallel_for(std::size_t(0), blocks, run); });
+  }
+
+  /// Two independent halves of a recursion; call it from inside run() or with one thread.
+  template <class First, class Second>
+  void both(bool worth_it, const First &first, const Second &second) const {
+    if (arena_ && worth_it) {
+      tbb::parallel_invoke(first, second);
+    } else {
+      first();
+      second();
+    }
+  }
+
+  /// Runs a recursion that uses both() inside the arena.
+  template <class Body>
+  void run(const Body &body) const {
+    if (arena_)
+      arena_->execute(body);
+    else
+      body();
+  }
+
+ private:
+  int threads_;
+  std::unique_ptr<tbb::task_arena> arena_;
+};
+
+}  // namespace tetlod
