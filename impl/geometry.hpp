@@ -1,0 +1,45 @@
+// Small geometry that several stages share: determinants, the nearest point of a triangle, barycentric weights.
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "mesh.hpp"
+
+namespace tetlod {
+
+/// Six times the signed volume of (a, b, c, d); positive when b, c, d are counter-clockwise seen from outside, i.e.
+/// when d is on the side of (b - a) x (c - a).
+inline double det(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &d) {
+  return glm::dot(glm::cross(b - a, c - a), d - a);
+}
+
+/// Twice the area vector of a triangle.
+inline Vec3 area_vector(const Vec3 &a, const Vec3 &b, const Vec3 &c) { return glm::cross(b - a, c - a); }
+
+inline double length2(const Vec3 &v) { return glm::dot(v, v); }
+
+/// 1 for an equilateral triangle, 0 for a degenerate one: 4 sqrt(3) area / sum of squared edges.
+inline double triangle_quality(const Vec3 &a, const Vec3 &b, const Vec3 &c) {
+  const double edges = length2(b - a) + length2(c - b) + length2(a - c);
+  return edges > 0 ? 2 * std::sqrt(3.0) * glm::length(area_vector(a, b, c)) / edges : 0;
+}
+
+/// The point of a triangle nearest to p, as barycentric weights.
+Vec3 nearest_in_triangle(const Vec3 &p, const Vec3 &a, const Vec3 &b, const Vec3 &c);
+
+/// Barycentric weights of p in a tet of either winding; all zero for a tet without volume.
+inline void barycentric(const Vec3 &p, const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &d, double weights[4]) {
+  const double whole = det(a, b, c, d);
+  if (whole == 0) {
+    std::fill(weights, weights + 4, 0.0);
+    return;
+  }
+  weights[0] = det(p, b, c, d) / whole;
+  weights[1] = det(a, p, c, d) / whole;
+  weights[2] = det(a, b, p, d) / whole;
+  weights[3] = 1 - weights[0] - weights[1] - weights[2];
+}
+
+}  // namespace tetlod

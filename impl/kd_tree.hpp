@@ -1,0 +1,169 @@
+// A k-d tree over things that have a box: triangles and tets. Every node keeps the box of what is below it, so the
+// tree answers overlap and nearest queries, and can follow things that move a little (refit).
+#pragma once
+#include <algorithm>
+#include <cstdint>
+
+#include "mesh.hpp"
+
+namespace tetlod {
+
+inline bool overlap(const Box &a, const Box &b) {
+  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y &&
+         a.low.z <= b.high.z && b.low.z <= a.high.z;
+}
+
+inline double distance2(const Box &box, const Vec3 &p) {
+  double sum = 0;
+  for (int k = 0; k < 3; k++) {
+    const double d = p[k] < box.low[k] ? box.low[k] - p[k] : p[k] > box.high[k] ? p[k] - box.high[k] : 0.0;
+    sum += d * d;
+  }
+  return sum;
+}
+
+class KdTree {
+ public:
+  explicit KdTree(Memory &memory) : boxes_(&memory), items_(&memory), nodes_(&memory), leaf_of_(&memory) {}
+
+  /// Splits at the median of the boxes' centres along the longest extent, until at most `leaf` items are left.
+  void build(Array<Box> &&boxes, std::int64_t leaf) {
+    boxes_ = std::move(boxes);
+    items_.resize(boxes_.size());
+    for (std::size_t i = 0; i < items_.size(); i++) items_[i] = std::int32_t(i);
+    nodes_.clear();
+    if (!items_.empty()) split(0, std::int32_t(items_.size()), -1, std::int32_t(std::max<std::int64_t>(leaf, 1)));
+  }
+
+  bool empty() const { return nodes_.empty(); }
+  const Box &box() const { return nodes_[0].box; }
+
+  /// visit(item) for every item whose box overlaps; stops when visit returns true, and says whether it did.
+  template <class Visit>
+  bool any_overlap(const Box &box, const Visit &visit) const {
+    std::int32_t stack[max_depth];
+    int top = 0;
+    if (!nodes_.empty()) stack[top++] = 0;
+    while (top) {
+      const std::int32_t self = stack[--top];
+      const Node &node = nodes_[std::size_t(self)];
+      if (!overlap(node.box, box)) continue;
+      if (node.right) {
+        stack[top++] = node.right;
+        stack[top++] = self + 1;
+        continue;
+      }
+      for (std::int32_t i = node.begin; i < node.end; i++) {
+        const std::int32_t item = items_[std::size_t(i)];
+        if (overlap(boxes_[std::size_t(item)], box) && visit(item)) return true;
+      }
+    }
+    return false;
+  }
+
+  /// The item with the least distance2_to(item), searched nearest box first; -1 when the tree is empty or nothing is
+  /// nearer than sqrt(best). `best` becomes the squared distance. Ties go to the lower item.
+  template <class Distance2>
+  std::int32_t nearest(const Vec3 &p, double &best, const Distance2 &distance2_to) const {
+    std::int32_t found = -1;
+    std::int32_t stack[max_depth];
+    int top = 0;
+    if (!nodes_.empty()) stack[top++] = 0;
+    while (top) {
+      const std::int32_t self = stack[--top];
+      const Node &node = nodes_[std::size_t(self)];
+      if (distance2(node.box, p) > best) continue;
+      if (node.right) {
+        const double left = distance2(nodes_[std::size_t(self + 1)].box, p);
+        const double right = distance2(nodes_[std::size_t(node.right)].box, p);
+        stack[top++] = left < right ? node.right : self + 1;
+        stack[top++] = left < right ? self + 1 : node.right;
+        continue;
+      }
+      for (std::int32_t i = node.begin; i < node.end; i++) {
+        const std::int32_t item = items_[std::size_t(i)];
+        if (distance2(boxes_[std::size_t(item)], p) > best) continue;
+        const double d = distance2_to(item);
+        if (d < best || (d == best && (found < 0 || item < found))) {
+          best = d;
+          found = item;
+        }
+      }
+    }
+    return found;
+  }
+
+  /// Gives an item another box (an empty one removes it from every answer) and mends the boxes above it.
+  void refit(std::int32_t item, const Box &box) {
+    boxes_[std::size_t(item)] = box;
+    for (std::int32_t self = leaf_of_[std::size_t(item)]; self >= 0; self = nodes_[std::size_t(self)].parent) {
+      const Box mended = box_below(self);
+      Box &old = nodes_[std::size_t(self)].box;
+      if (mended.low == old.low && mended.high == old.high) break;
+      old = mended;
+    }
+  }
+
+ private:
+  static constexpr int max_depth = 128;  // twice the depth of 2^32 items halved, and more
+
+  struct Node {
+    Box box;
+    std::int32_t begin, end;  // items, of a leaf
+    std::int32_t right;       // 0: a leaf; the left child is the next node
+    std::int32_t parent;
+  };
+
+  Box box_below(std::int32_t self) const {
+    const Node &node = nodes_[std::size_t(self)];
+    Box box;
+    if (node.right) {
+      box.add(nodes_[std::size_t(self + 1)].box);
+      box.add(nodes_[std::size_t(node.right)].box);
+    } else {
+      for (std::int32_t i = node.begin; i < node.end; i++) box.add(boxes_[std::size_t(items_[std::size_t(i)])]);
+    }
+    return box;
+  }
+
+  std::int32_t split(std::int32_t begin, std::int32_t end, std::int32_t parent, std::int32_t leaf) {
+    const std::int32_t self = std::int32_t(nodes_.size());
+    nodes_.push_back({Box(), begin, end, 0, parent});
+    nodes_[std::size_t(self)].box = box_below(self);
+    if (end - begin <= leaf) {
+      if (leaf_of_.size() != items_.size()) leaf_of_.resize(items_.size());
+      for (std::int32_t i = begin; i < end; i++) leaf_of_[std::size_t(items_[std::size_t(i)])] = self;
+      return self;
+    }
+    const std::int32_t middle = begin + (end - begin) / 2;
+    const int axis = longest_extent_of_centres(begin, end);
+    const auto less = [&](std::int32_t a, std::int32_t b) {
+      const double ca = centre(a)[axis], cb = centre(b)[axis];
+      return ca != cb ? ca < cb : a < b;
+    };
+    std::nth_element(items_.begin() + begin, items_.begin() + middle, items_.begin() + end, less);
+    split(begin, middle, self, leaf);
+    const std::int32_t right = split(middle, end, self, leaf);
+    nodes_[std::size_t(self)].right = right;
+    return self;
+  }
+
+  Vec3 centre(std::int32_t item) const {
+    const Box &box = boxes_[std::size_t(item)];
+    return box.low + box.high;
+  }
+
+  int longest_extent_of_centres(std::int32_t begin, std::int32_t end) const {
+    Box box;
+    for (std::int32_t i = begin; i < end; i++) box.add(centre(items_[std::size_t(i)]));
+    const Vec3 extent = box.high - box.low;
+    return extent.x >= extent.y ? (extent.x >= extent.z ? 0 : 2) : (extent.y >= extent.z ? 1 : 2);
+  }
+
+  Array<Box> boxes_;
+  Array<std::int32_t> items_;
+  Array<Node> nodes_;
+  Array<std::int32_t> leaf_of_;
+};
+
+}  // namespace tetlod
