@@ -1,0 +1,25 @@
+// 3.2  The boundary: faces that belong to a single tet, outward. Interior points: the others that tets use.
+#pragma once
+#include <cstdint>
+
+#include "job.hpp"
+#include "mesh.hpp"
+
+namespace tetlod {
+
+struct Boundary {
+  explicit Boundary(Memory &memory) : triangles(&memory), tet_of(&memory), interior(&memory) {}
+  Array<Triangle> triangles;          ///< original vertices, counter-clockwise seen from outside
+  Array<std::int32_t> tet_of;         ///< of each triangle
+  Array<std::int32_t> interior;       ///< vertices that tets use and the boundary does not, ascending
+  std::int64_t unused_points = 0;
+  std::int64_t flat_tets = 0;         ///< tets without volume that were peeled off the boundary
+};
+
+/// Throws Status::mesh_nonmanifold for a face with more than two tets, mesh_degenerate when no tet has a volume.
+void extract_boundary(const MeshView &mesh, Job &job, Boundary &boundary);
+
+/// The triangles with points of their own, numbered by first use.
+void make_surface(const MeshView &mesh, Span<const Triangle> triangles, Job &job, Surface &surface);
+
+}  // namespace tetlod

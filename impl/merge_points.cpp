@@ -1,0 +1,91 @@
+#include "merge_points.hpp"
+
+#include <cmath>
+#include <cstring>
+
+#include "geometry.hpp"
+
+namespace tetlod {
+
+namespace {
+
+/// A hash table of points by a key of three numbers: their coordinates, or the cell of a grid that they lie in.
+class PointTable {
+ public:
+  PointTable(std::size_t points, Job &job) : first_(&job.memory), next_(&job.memory) {
+    std::size_t size = 16;
+    while (size < 2 * points) size *= 2;
+    first_.assign(size, -1);
+    next_.assign(points, -1);
+  }
+
+  void insert(const Vec3 &key, std::int32_t v) {
+    std::int32_t &head = first_[slot(key)];
+    next_[std::size_t(v)] = head;
+    head = v;
+  }
+
+  template <class Visit>
+  void for_each(const Vec3 &key, const Visit &visit) const {
+    for (std::int32_t v = first_[slot(key)]; v >= 0; v = next_[std::size_t(v)]) visit(v);
+  }
+
+ private:
+  std::size_t slot(const Vec3 &key) const {
+    std::uint64_t hash = 0;
+    for (int k = 0; k < 3; k++) {
+      const double positive_zero = key[k] + 0.0;
+      std::uint64_t bits;
+      std::memcpy(&bits, &positive_zero, sizeof bits);
+      hash = (hash ^ bits) * 0x9e3779b97f4a7c15u;
+      hash ^= hash >> 32;
+    }
+    return std::size_t(hash) & (first_.size() - 1);
+  }
+
+  Array<std::int32_t> first_, next_;
+};
+
+std::int32_t find_equal(const PointTable &table, Span<const Vec3> points, std::int32_t v) {
+  std::int32_t found = v;
+  const Vec3 &p = points[std::size_t(v)];
+  table.for_each(p, [&](std::int32_t other) {
+    if (points[std::size_t(other)] == p) found = other;
+  });
+  return found;
+}
+
+std::int32_t find_near(const PointTable &table, Span<const Vec3> points, std::int32_t v, double tolerance) {
+  std::int32_t found = v;
+  const Vec3 &p = points[std::size_t(v)];
+  const Vec3 cell = glm::floor(p / tolerance);
+  for (int dx = -1; dx <= 1; dx++)
+    for (int dy = -1; dy <= 1; dy++)
+      for (int dz = -1; dz <= 1; dz++)
+        table.for_each(cell + Vec3(dx, dy, dz), [&](std::int32_t other) {
+          if (other < found && length2(points[std::size_t(other)] - p) <= tolerance * tolerance) found = other;
+        });
+  return found;
+}
+
+}  // namespace
+
+std::int64_t merge_points(Span<const Vec3> points, Span<const std::uint8_t> used, double tolerance, Job &job,
+                          Array<std::int32_t> &representative) {
+  PointTable table(points.size(), job);
+  representative.resize(points.size());
+  std::int64_t merged = 0;
+  for (std::size_t i = 0; i < points.size(); i++) {
+    const auto v = std::int32_t(i);
+    representative[i] = v;
+    if (!used[i]) continue;
+    const std::int32_t found = tolerance > 0 ? find_near(table, points, v, tolerance) : find_equal(table, points, v);
+    representative[i] = found;
+    merged += found != v;
+    if (found == v) table.insert(tolerance > 0 ? glm::floor(points[i] / tolerance) : points[i], v);
+    if (i % 4096 == 0) job.poll(double(i) / double(points.size()));
+  }
+  return merged;
+}
+
+}  // namespace tetlod

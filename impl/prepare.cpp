@@ -1,0 +1,183 @@
+#include "prepare.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry.hpp"
+#include "merge_points.hpp"
+#include "status.hpp"
+
+namespace tetlod {
+
+namespace {
+
+constexpr std::size_t block = 1 << 14;
+
+bool interleaved_doubles(const std::array<StridedArray, 3> &xyz) {
+  for (std::size_t k = 0; k < 3; k++)
+    if (xyz[k].type != ElementType::float64 || xyz[k].tuple_stride != std::int64_t(sizeof(Vec3)) ||
+        xyz[k].data != xyz[0].data + k * sizeof(double))
+      return false;
+  return true;
+}
+
+Span<const Vec3> read_points(const Input &input, Job &job, Array<Vec3> &copy) {
+  const auto count = std::size_t(input.xyz[0].tuples);
+  if (interleaved_doubles(input.xyz)) return {reinterpret_cast<const Vec3 *>(input.xyz[0].data), count};
+  copy.resize(count);
+  job.parallel.for_blocks(count, block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; i++)
+      for (int k = 0; k < 3; k++) copy[i][k] = input.xyz[std::size_t(k)].real(std::int64_t(i), 0);
+  });
+  return copy;
+}
+
+Span<const double> read_scalars(const Input &input, Job &job, Array<double> &copy) {
+  const auto count = std::size_t(input.scalars.tuples);
+  if (input.scalars.packed_as(ElementType::float64))
+    return {reinterpret_cast<const double *>(input.scalars.data), count};
+  copy.resize(count);
+  job.parallel.for_blocks(count, block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; i++) copy[i] = input.scalars.real(std::int64_t(i), 0);
+  });
+  return copy;
+}
+
+/// Lowest tet that breaks a rule, over all blocks; deterministic because the lowest is.
+class FirstCulprit {
+ public:
+  void report(std::size_t i) {
+    std::size_t now = first_.load();
+    while (i < now && !first_.compare_exchange_weak(now, i)) {
+    }
+  }
+  bool any() const { return first_.load() != none; }
+  std::size_t index() const { return first_.load(); }
+
+ private:
+  static constexpr std::size_t none = std::size_t(-1);
+  std::atomic<std::size_t> first_{none};
+};
+
+void check_indices(const Input &input, Job &job) {
+  const auto count = std::size_t(input.tets.tuples);
+  const std::int64_t points = input.xyz[0].tuples, base = input.index_base;
+  FirstCulprit culprit;
+  job.parallel.for_blocks(count, block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; t++)
+      for (int k = 0; k < 4; k++) {
+        const std::int64_t v = input.tets.integer(std::int64_t(t), k);
+        if (v < base || v - base >= points) culprit.report(t);
+      }
+    job.poll(double(end) / double(count));
+  });
+  if (!culprit.any()) return;
+  for (int k = 0; k < 4; k++) {
+    const std::int64_t v = input.tets.integer(std::int64_t(culprit.index()), k);
+    if (v < base || v - base >= points)
+      fail(Status::mesh_index, "tet %lld uses vertex %lld, the mesh has %lld (numbered from %d)",
+           static_cast<long long>(culprit.index()) + base, static_cast<long long>(v), static_cast<long long>(points),
+           int(base));
+  }
+}
+
+Span<const Tet> read_tets(const Input &input, Job &job, Array<Tet> &copy) {
+  check_indices(input, job);
+  const auto count = std::size_t(input.tets.tuples);
+  if (input.index_base == 0 && input.tets.packed_as(ElementType::int32))
+    return {reinterpret_cast<const Tet *>(input.tets.data), count};
+  copy.resize(count);
+  job.parallel.for_blocks(count, block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; t++)
+      for (int k = 0; k < 4; k++)
+        copy[t][std::size_t(k)] = std::int32_t(input.tets.integer(std::int64_t(t), k) - input.index_base);
+  });
+  return copy;
+}
+
+bool has_repeated_vertex(const Tet &t) {
+  return t[0] == t[1] || t[0] == t[2] || t[0] == t[3] || t[1] == t[2] || t[1] == t[3] || t[2] == t[3];
+}
+
+/// Marks the points that tets use and looks at their coordinates and values.
+Array<std::uint8_t> check_used_points(Original &original, int index_base, Job &job) {
+  const MeshView &mesh = original.view;
+  Array<std::uint8_t> used(mesh.points.size(), 0, &job.memory);
+  for (const Tet &t : mesh.tets)
+    for (std::int32_t v : t) used[std::size_t(v)] = 1;
+  original.scalar_min = std::numeric_limits<double>::infinity();
+  original.scalar_max = -original.scalar_min;
+  for (std::size_t v = 0; v < used.size(); v++) {
+    if (!used[v]) continue;
+    for (int k = 0; k < 3; k++)
+      if (!std::isfinite(mesh.points[v][k]))
+        fail(Status::mesh_nonfinite, "coordinate %c of vertex %zu is %s", "xyz"[k],
+             v + std::size_t(index_base), number(mesh.points[v][k]).c_str());
+    const double value = mesh.scalars[v];
+    if (!std::isfinite(value))
+      fail(Status::mesh_nonfinite, "the value of vertex %zu is %s", v + std::size_t(index_base), number(value).c_str());
+    original.scalar_min = std::min(original.scalar_min, value);
+    original.scalar_max = std::max(original.scalar_max, value);
+    original.box.add(mesh.points[v]);
+  }
+  return used;
+}
+
+/// Renames merged vertices and leaves out the tets that have a vertex twice; the tets then are ours.
+void drop_and_rename(Span<const std::int32_t> representative, Job &job, Original &original) {
+  Array<Tet> kept(&job.memory);
+  kept.reserve(original.view.tets.size());
+  for (const Tet &t : original.view.tets) {
+    Tet renamed = t;
+    if (!representative.empty())
+      for (std::int32_t &v : renamed) v = representative[std::size_t(v)];
+    if (!has_repeated_vertex(renamed)) kept.push_back(renamed);
+  }
+  original.dropped_tets = std::int64_t(original.view.tets.size() - kept.size());
+  original.tets = std::move(kept);
+  original.view.tets = original.tets;
+}
+
+bool any_repeated_vertex(Span<const Tet> tets, Job &job) {
+  FirstCulprit culprit;
+  job.parallel.for_blocks(tets.size(), block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; t++)
+      if (has_repeated_vertex(tets[t])) culprit.report(t);
+  });
+  return culprit.any();
+}
+
+void check_counts(const Input &input) {
+  if (input.xyz[0].tuples == 0 || input.tets.tuples == 0)
+    fail(Status::mesh_empty, "the mesh has %lld points and %lld tets", static_cast<long long>(input.xyz[0].tuples),
+         static_cast<long long>(input.tets.tuples));
+  if (input.scalars.tuples != input.xyz[0].tuples)
+    fail(Status::argument, "%lld values for %lld points", static_cast<long long>(input.scalars.tuples),
+         static_cast<long long>(input.xyz[0].tuples));
+  for (std::int64_t count : {input.xyz[0].tuples, input.tets.tuples})
+    if (count > max_count)
+      fail(Status::mesh_too_large, "%lld points or tets, the most is %lld", static_cast<long long>(count),
+           static_cast<long long>(max_count));
+}
+
+}  // namespace
+
+void prepare_original(const Input &input, double merge_tolerance, Job &job, Original &original) {
+  check_counts(input);
+  original.view.points = read_points(input, job, original.points);
+  original.view.scalars = read_scalars(input, job, original.scalars);
+  original.view.tets = read_tets(input, job, original.tets);
+  const Array<std::uint8_t> used = check_used_points(original, input.index_base, job);
+
+  Array<std::int32_t> representative(&job.memory);
+  const double diagonal = glm::length(original.box.high - original.box.low);
+  original.merged_points = merge_points(original.view.points, used, merge_tolerance * diagonal, job, representative);
+  if (original.merged_points == 0) representative.clear();
+  if (original.merged_points || any_repeated_vertex(original.view.tets, job))
+    drop_and_rename(representative, job, original);
+  if (original.view.tets.empty())
+    fail(Status::mesh_empty, "none of the %lld tets has four different vertices",
+         static_cast<long long>(input.tets.tuples));
+}
+
+}  // namespace tetlod

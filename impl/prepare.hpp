@@ -1,0 +1,27 @@
+// The caller's arrays become the mesh that the stages read: checked, coincident points merged, tets without volume out.
+#pragma once
+#include <cstdint>
+
+#include "job.hpp"
+#include "mesh.hpp"
+#include "pipeline.hpp"
+
+namespace tetlod {
+
+/// The original mesh; the caller's own arrays where their layout allows, copies where not.
+struct Original {
+  explicit Original(Memory &memory) : points(&memory), scalars(&memory), tets(&memory) {}
+  MeshView view;
+  Array<Vec3> points;
+  Array<double> scalars;
+  Array<Tet> tets;
+  std::int64_t merged_points = 0;  ///< coincident points that became one
+  std::int64_t dropped_tets = 0;   ///< with a repeated vertex, as submitted or after merging
+  double scalar_min = 0, scalar_max = 0;  ///< over the vertices that tets use
+  Box box;                                ///< of the vertices that tets use
+};
+
+/// Throws Status::mesh_empty, mesh_index, mesh_nonfinite, mesh_too_large.
+void prepare_original(const Input &input, double merge_tolerance, Job &job, Original &original);
+
+}  // namespace tetlod

@@ -1,0 +1,175 @@
+#include "surface_topology.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry.hpp"
+#include "status.hpp"
+
+namespace tetlod {
+
+namespace {
+
+constexpr int next(int k) { return k == 2 ? 0 : k + 1; }
+
+class TopologyFinder {
+ public:
+  TopologyFinder(Span<const Vec3> points, Span<const Triangle> triangles, Job &job, SurfaceTopology &out)
+      : points_(points), triangles_(triangles), job_(job), out_(out) {}
+
+  void find() {
+    sort_half_edges();
+    out_.mate.assign(3 * triangles_.size(), -1);
+    out_.touching.assign(points_.size(), 0);
+    for_each_edge([&](std::size_t begin, std::size_t end) { pair_around_edge(begin, end); });
+    find_sheet_vertices();
+    count_components();
+  }
+
+ private:
+  struct HalfEdge {
+    std::int32_t high, id;  // the end with the higher number; 3 t + k
+  };
+
+  std::int32_t from(std::int32_t h) const { return triangles_[std::size_t(h / 3)][std::size_t(h % 3)]; }
+  std::int32_t to(std::int32_t h) const { return triangles_[std::size_t(h / 3)][std::size_t(next(h % 3))]; }
+  std::int32_t apex(std::int32_t h) const { return triangles_[std::size_t(h / 3)][std::size_t(next(next(h % 3)))]; }
+  std::int32_t low_end(std::int32_t h) const { return std::min(from(h), to(h)); }
+
+  /// A counting sort by the lower end, then each small bucket by the higher one.
+  void sort_half_edges() {
+    begin_.assign(points_.size() + 1, 0);
+    const auto count = std::int32_t(3 * triangles_.size());
+    for (std::int32_t h = 0; h < count; h++) begin_[std::size_t(low_end(h)) + 1]++;
+    for (std::size_t v = 0; v < points_.size(); v++) begin_[v + 1] += begin_[v];
+    sorted_.resize(std::size_t(count));
+    Array<std::int32_t> place(begin_, &job_.memory);
+    for (std::int32_t h = 0; h < count; h++)
+      sorted_[std::size_t(place[std::size_t(low_end(h))]++)] = {std::max(from(h), to(h)), h};
+    for (std::size_t v = 0; v < points_.size(); v++)
+      std::sort(sorted_.begin() + begin_[v], sorted_.begin() + begin_[v + 1], [](const HalfEdge &a, const HalfEdge &b) {
+        return a.high != b.high ? a.high < b.high : a.id < b.id;
+      });
+  }
+
+  template <class Visit>
+  void for_each_edge(const Visit &visit) {
+    for (std::size_t v = 0; v < points_.size(); v++) {
+      std::size_t i = std::size_t(begin_[v]);
+      const std::size_t last = std::size_t(begin_[v + 1]);
+      while (i < last) {
+        std::size_t j = i + 1;
+        while (j < last && sorted_[j].high == sorted_[i].high) j++;
+        visit(i, j);
+        i = j;
+      }
+    }
+  }
+
+  void pair_around_edge(std::size_t begin, std::size_t end) {
+    out_.edges++;
+    if (end - begin == 2) {
+      pair(sorted_[begin].id, sorted_[begin + 1].id);
+      return;
+    }
+    if ((end - begin) % 2)
+      fail(Status::mesh_nonmanifold, "%zu boundary faces meet at the edge from vertex %d to vertex %d", end - begin,
+           int(low_end(sorted_[begin].id)), int(sorted_[begin].high));
+    out_.nonmanifold_edges++;
+    out_.touching[std::size_t(low_end(sorted_[begin].id))] = 1;
+    out_.touching[std::size_t(sorted_[begin].high)] = 1;
+    sort_by_angle(begin, end);
+    // Material lies before a triangle whose half-edge runs up, and behind one whose half-edge runs down.
+    const std::size_t first = from(sorted_[begin].id) > to(sorted_[begin].id) ? begin : begin + 1;
+    for (std::size_t i = 0; i < end - begin; i += 2) {
+      const std::size_t down = begin + (first - begin + i) % (end - begin);
+      const std::size_t up = begin + (first - begin + i + 1) % (end - begin);
+      pair(sorted_[down].id, sorted_[up].id);
+    }
+  }
+
+  void pair(std::int32_t a, std::int32_t b) {
+    if (from(a) == from(b) || a == b)
+      fail(Status::mesh_intersecting, "the solid overlaps itself at the boundary edge from vertex %d to vertex %d",
+           int(low_end(a)), int(std::max(from(a), to(a))));
+    out_.mate[std::size_t(a)] = b;
+    out_.mate[std::size_t(b)] = a;
+  }
+
+  /// Counter-clockwise around the edge, seen from its higher end.
+  void sort_by_angle(std::size_t begin, std::size_t end) {
+    const std::int32_t some = sorted_[begin].id;
+    const Vec3 &low = points_[std::size_t(low_end(some))];
+    const Vec3 axis = points_[std::size_t(sorted_[begin].high)] - low;
+    const Vec3 x = points_[std::size_t(apex(some))] - low;
+    const Vec3 across = glm::cross(axis, x), along = glm::cross(across, axis);
+    const double scale = glm::length(axis);
+    const auto angle = [&](const HalfEdge &h) {
+      const Vec3 d = points_[std::size_t(apex(h.id))] - low;
+      return h.id == some ? 0.0 : std::atan2(glm::dot(d, across) * scale, glm::dot(d, along));
+    };
+    std::sort(sorted_.begin() + std::ptrdiff_t(begin), sorted_.begin() + std::ptrdiff_t(end),
+              [&](const HalfEdge &a, const HalfEdge &b) {
+                const double p = angle(a), q = angle(b);
+                return p != q ? p < q : a.id < b.id;
+              });
+  }
+
+  /// Corners around a vertex that mates join are one vertex of the cut surface.
+  void find_sheet_vertices() {
+    const std::size_t corners = 3 * triangles_.size();
+    out_.sheet_vertex.assign(corners, -1);
+    Array<std::uint8_t> sheets(points_.size(), 0, &job_.memory);
+    for (std::size_t c = 0; c < corners; c++) {
+      if (out_.sheet_vertex[c] >= 0) continue;
+      const auto sheet = std::int32_t(out_.vertex_of.size());
+      const std::int32_t v = from(std::int32_t(c));
+      out_.vertex_of.push_back(v);
+      std::uint8_t &count = sheets[std::size_t(v)];
+      out_.used_points += count == 0;
+      out_.nonmanifold_points += count == 1;
+      if (count == 1) out_.touching[std::size_t(v)] = 1;
+      count = std::uint8_t(std::min(count + 1, 2));
+      // The corner of the next triangle around the vertex begins where the mate of the edge that arrives here begins.
+      for (auto at = std::int32_t(c); out_.sheet_vertex[std::size_t(at)] < 0;
+           at = out_.mate[std::size_t(3 * (at / 3) + next(next(at % 3)))])
+        out_.sheet_vertex[std::size_t(at)] = sheet;
+    }
+  }
+
+  void count_components() {
+    Array<std::int32_t> stack(&job_.memory);
+    Array<std::uint8_t> seen(triangles_.size(), 0, &job_.memory);
+    for (std::size_t t = 0; t < triangles_.size(); t++) {
+      if (seen[t]) continue;
+      out_.components++;
+      seen[t] = 1;
+      stack.push_back(std::int32_t(t));
+      while (!stack.empty()) {
+        const std::int32_t at = stack.back();
+        stack.pop_back();
+        for (int k = 0; k < 3; k++) {
+          const std::int32_t neighbour = out_.mate[std::size_t(3 * at + k)] / 3;
+          if (seen[std::size_t(neighbour)]) continue;
+          seen[std::size_t(neighbour)] = 1;
+          stack.push_back(neighbour);
+        }
+      }
+    }
+  }
+
+  Span<const Vec3> points_;
+  Span<const Triangle> triangles_;
+  Job &job_;
+  SurfaceTopology &out_;
+  Array<std::int32_t> begin_{&job_.memory};
+  Array<HalfEdge> sorted_{&job_.memory};
+};
+
+}  // namespace
+
+void find_topology(Span<const Vec3> points, Span<const Triangle> triangles, Job &job, SurfaceTopology &topology) {
+  TopologyFinder(points, triangles, job, topology).find();
+}
+
+}  // namespace tetlod
