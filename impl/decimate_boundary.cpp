@@ -1,0 +1,392 @@
+#include "decimate_boundary.hpp"
+
+#include <OpenMesh/Core/Mesh/TriConnectivity.hh>
+#include <algorithm>
+#include <cmath>
+
+#include "collapse_rules.hpp"
+#include "edge_queue.hpp"
+#include "lindstrom_turk.hpp"
+#include "surface_topology.hpp"
+
+namespace tetlod {
+
+namespace {
+
+using Mesh = OpenMesh::TriConnectivity;
+using HalfedgeHandle = OpenMesh::HalfedgeHandle;
+using VertexHandle = OpenMesh::VertexHandle;
+
+/// OpenMesh allocates from the heap; this is what it takes for a triangle: half a vertex, one and a half edges.
+constexpr std::size_t openmesh_bytes_a_triangle = 100;
+/// Links of more vertices than this are left alone: nothing of use comes from such a collapse.
+constexpr std::size_t longest_ring = 64;
+
+template <class T>
+auto &at(T &array, OpenMesh::BaseHandle handle) {
+  return array[std::size_t(handle.idx())];
+}
+
+class Decimator {
+ public:
+  Decimator(const Surface &surface, const SurfaceTopology &topology, Span<const std::uint8_t> locked, double lambda,
+            Job &job)
+      : surface_(surface),
+        job_(job),
+        lambda_(lambda),
+        charge_(job.memory, openmesh_bytes_a_triangle * surface.triangles.size()),
+        queue_(3 * surface.triangles.size() / 2, job.memory) {
+    copy_vertices(topology, locked);
+    copy_connectivity(topology);
+    for (std::size_t v = 0; v < point_.size(); v++) update_sums(VertexHandle(int(v)));
+    build_tree();
+  }
+
+  std::int64_t edges() const { return edges_; }
+
+  /// Collapses the edge of lowest cost until `target` edges are left; with a limit on the length the cost is the length.
+  void collapse_until(std::int64_t target, double length_limit) {
+    by_length_ = length_limit > 0;
+    const std::int64_t start = edges_;
+    for (std::size_t e = 0; e < mesh_.n_edges(); e++) update_cost(OpenMesh::EdgeHandle(int(e)));
+    for (std::int64_t step = 0; edges_ > target && !queue_.empty(); step++) {
+      const OpenMesh::EdgeHandle edge(queue_.top());
+      if (by_length_ && queue_.cost(edge.idx()) > length_limit * length_limit) break;
+      queue_.remove(edge.idx());
+      try_collapse(edge);
+      if (step % 64 == 0) job_.poll(double(start - edges_) / double(std::max<std::int64_t>(start - target, 1)));
+    }
+    while (!queue_.empty()) queue_.remove(queue_.top());
+  }
+
+  /// What is left, the cut welded again.
+  void write(Surface &out) const {
+    Array<std::int32_t> number(surface_.points.size(), -1, &job_.memory);
+    for (auto f = mesh_.faces_sbegin(); f != mesh_.faces_end(); ++f) {
+      Triangle renumbered{};
+      for (std::size_t k = 0; k < 3; k++) {
+        const std::int32_t v = at(triangle_, *f)[k], id = id_[std::size_t(v)];
+        if (number[std::size_t(id)] < 0) {
+          number[std::size_t(id)] = std::int32_t(out.points.size());
+          out.points.push_back(point_[std::size_t(v)]);
+          out.scalars.push_back(scalar_[std::size_t(v)]);
+          out.origin.push_back(origin_[std::size_t(v)]);
+        }
+        renumbered[k] = number[std::size_t(id)];
+      }
+      out.triangles.push_back(renumbered);
+    }
+  }
+
+ private:
+  // ---- Setting up
+
+  void copy_vertices(const SurfaceTopology &topology, Span<const std::uint8_t> locked) {
+    const std::size_t count = topology.vertex_of.size();
+    for (auto *array : {&id_, &origin_}) array->reserve(count);
+    point_.reserve(count);
+    for (std::int32_t id : topology.vertex_of) {
+      const auto i = std::size_t(id);
+      point_.push_back(surface_.points[i]);
+      scalar_.push_back(surface_.scalars[i]);
+      origin_.push_back(surface_.origin[i]);
+      id_.push_back(id);
+      touching_.push_back(topology.touching[i]);
+      locked_.push_back(topology.touching[i] || (!locked.empty() && locked[i]));
+    }
+    volume_.resize(count);
+    link_.resize(count);
+  }
+
+  /// Straight from the mates: OpenMesh's add_face would search and, on what it does not like, print.
+  void copy_connectivity(const SurfaceTopology &topology) {
+    mesh_.request_vertex_status();
+    mesh_.request_halfedge_status();
+    mesh_.request_edge_status();
+    mesh_.request_face_status();
+    mesh_.reserve(point_.size(), topology.mate.size() / 2, surface_.triangles.size());
+    for (std::size_t v = 0; v < point_.size(); v++) mesh_.new_vertex();
+    Array<std::int32_t> halfedge(topology.mate.size(), -1, &job_.memory);
+    for (std::size_t h = 0; h < halfedge.size(); h++) {
+      const auto mate = std::size_t(topology.mate[h]);
+      if (mate < h) continue;
+      const VertexHandle from(topology.sheet_vertex[h]), to(topology.sheet_vertex[mate]);
+      const HalfedgeHandle made = mesh_.new_edge(from, to);
+      halfedge[h] = made.idx();
+      halfedge[mate] = mesh_.opposite_halfedge_handle(made).idx();
+    }
+    for (std::size_t t = 0; t < surface_.triangles.size(); t++) {
+      const OpenMesh::FaceHandle face = mesh_.new_face();
+      Triangle vertices{};
+      for (std::size_t k = 0; k < 3; k++) {
+        const HalfedgeHandle h(halfedge[3 * t + k]);
+        mesh_.set_face_handle(h, face);
+        mesh_.set_next_halfedge_handle(h, HalfedgeHandle(halfedge[3 * t + (k + 1) % 3]));
+        vertices[k] = topology.sheet_vertex[3 * t + k];
+        mesh_.set_halfedge_handle(VertexHandle(vertices[k]), h);
+      }
+      mesh_.set_halfedge_handle(face, HalfedgeHandle(halfedge[3 * t]));
+      triangle_.push_back(vertices);
+      plane_.push_back(plane_of(point(vertices[0]), point(vertices[1]), point(vertices[2])));
+    }
+    edges_ = std::int64_t(mesh_.n_edges());
+    stamp_.assign(mesh_.n_edges(), 0);
+  }
+
+  void build_tree() {
+    Array<Box> boxes(&job_.memory);
+    boxes.reserve(triangle_.size());
+    for (const Triangle &t : triangle_) boxes.push_back(box_of(t));
+    tree_.build(std::move(boxes), 4);
+  }
+
+  // ---- Geometry of what is there
+
+  const Vec3 &point(std::int32_t v) const { return point_[std::size_t(v)]; }
+  const Vec3 &point(VertexHandle v) const { return point_[std::size_t(v.idx())]; }
+
+  Box box_of(const Triangle &t) const {
+    Box box;
+    for (std::int32_t v : t) box.add(point(v));
+    return box;
+  }
+
+  void update_sums(VertexHandle v) {
+    VolumeSums volume;
+    LinkSums link;
+    const HalfedgeHandle first = mesh_.halfedge_handle(v);
+    HalfedgeHandle h = first;
+    do {
+      volume.add(at(plane_, mesh_.face_handle(h)));
+      link.add(point(mesh_.to_vertex_handle(h)));
+      h = next_around(h);
+    } while (h != first);
+    at(volume_, v) = volume;
+    at(link_, v) = link;
+  }
+
+  /// The next half-edge that leaves the same vertex, counter-clockwise.
+  HalfedgeHandle next_around(HalfedgeHandle h) const {
+    return mesh_.opposite_halfedge_handle(mesh_.prev_halfedge_handle(h));
+  }
+
+  VertexHandle apex(HalfedgeHandle h) const { return mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h)); }
+
+  // ---- Placement and cost
+
+  struct Placement {
+    Vec3 point;
+    double cost;
+  };
+
+  Placement place(HalfedgeHandle h) const {
+    const HalfedgeHandle o = mesh_.opposite_halfedge_handle(h);
+    const VertexHandle from = mesh_.from_vertex_handle(h), to = mesh_.to_vertex_handle(h);
+    const double length2_e = length2(point(to) - point(from));
+    LinkSums link = at(link_, from);
+    link.add(at(link_, to));
+    for (VertexHandle v : {from, to, apex(h), apex(o)}) link.add(point(v), -1);
+    if (const VertexHandle fixed = fixed_end(from, to); fixed.is_valid())
+      return {point(fixed), collapse_cost(link, point(fixed), length2_e)};
+    VolumeSums volume = at(volume_, from);
+    volume.add(at(volume_, to));
+    for (HalfedgeHandle side : {h, o}) volume.add(at(plane_, mesh_.face_handle(side)), -1);
+    const Vec3 x = place_vertex(volume, link, length2_e, lambda_);
+    return {x, collapse_cost(link, x, length2_e)};
+  }
+
+  VertexHandle fixed_end(VertexHandle from, VertexHandle to) const {
+    return at(locked_, from) ? from : at(locked_, to) ? to : VertexHandle();
+  }
+
+  void update_cost(OpenMesh::EdgeHandle edge) {
+    if (mesh_.status(edge).deleted()) return;
+    const HalfedgeHandle h = mesh_.halfedge_handle(edge, 0);
+    const VertexHandle from = mesh_.from_vertex_handle(h), to = mesh_.to_vertex_handle(h);
+    if (at(locked_, from) && at(locked_, to)) return;
+    const double cost = by_length_ ? length2(point(to) - point(from)) : place(h).cost;
+    queue_.set(edge.idx(), std::isfinite(cost) ? cost : std::numeric_limits<double>::max());
+  }
+
+  // ---- Admissibility
+
+  /// The link condition, and no pillow of two triangles: the surface stays a manifold of the same topology.
+  bool breaks_topology(HalfedgeHandle h) {
+    const HalfedgeHandle o = mesh_.opposite_halfedge_handle(h);
+    return valence(apex(h)) <= 3 || valence(apex(o)) <= 3 || !mesh_.is_collapse_ok(h);
+  }
+
+  int valence(VertexHandle v) const { return int(at(link_, v).count); }
+
+  /// Two sheets that touch at both ends of a new edge might share it, or share a triangle.
+  bool joins_touching(HalfedgeHandle h) const {
+    const VertexHandle from = mesh_.from_vertex_handle(h), to = mesh_.to_vertex_handle(h);
+    if (!at(touching_, from) && !at(touching_, to)) return false;
+    const VertexHandle moving = at(touching_, from) ? to : from;
+    const HalfedgeHandle first = mesh_.halfedge_handle(moving);
+    HalfedgeHandle around = first;
+    do {
+      const VertexHandle v = mesh_.to_vertex_handle(around);
+      if (v != from && v != to && at(touching_, v)) return true;
+      around = next_around(around);
+    } while (around != first);
+    return false;
+  }
+
+  /// Fills star_; false when the link is too long to bother.
+  bool look_around(HalfedgeHandle h, const Vec3 &centre) {
+    star_.clear();
+    star_.centre = centre;
+    star_.centre_id = std::int32_t(surface_.points.size());
+    const HalfedgeHandle o = mesh_.opposite_halfedge_handle(h);
+    for (HalfedgeHandle side : {h, o}) star_.old_faces.push_back(mesh_.face_handle(side).idx());
+    // Around `to` from behind the left triangle to the right one, then around `from`.
+    for (HalfedgeHandle side : {o, h}) {
+      HalfedgeHandle spoke = next_around(side);
+      for (HalfedgeHandle last = mesh_.next_halfedge_handle(mesh_.opposite_halfedge_handle(side)); spoke != last;
+           spoke = next_around(spoke))
+        add_to_star(spoke);
+    }
+    if (const VertexHandle to = mesh_.to_vertex_handle(h); at(locked_, to)) star_.centre_id = at(id_, to);
+    star_.find_normals();
+    return star_.size() <= longest_ring;
+  }
+
+  /// The triangle counter-clockwise of a half-edge that leaves an end of the edge, and its ring edge.
+  void add_to_star(HalfedgeHandle spoke) {
+    const OpenMesh::FaceHandle face = mesh_.face_handle(spoke);
+    const HalfedgeHandle ring_edge = mesh_.next_halfedge_handle(spoke);
+    const VertexHandle v = mesh_.to_vertex_handle(spoke);
+    star_.ring.push_back(point(v));
+    star_.ring_id.push_back(at(id_, v));
+    star_.old_normal.push_back(at(plane_, face).normal);
+    star_.outer_normal.push_back(at(plane_, mesh_.face_handle(mesh_.opposite_halfedge_handle(ring_edge))).normal);
+    star_.old_faces.push_back(face.idx());
+    const Triangle &t = at(triangle_, face);
+    star_.old_quality = std::min(star_.old_quality, triangle_quality(point(t[0]), point(t[1]), point(t[2])));
+  }
+
+  // ---- The collapse
+
+  void try_collapse(OpenMesh::EdgeHandle edge) {
+    HalfedgeHandle h = mesh_.halfedge_handle(edge, 0);
+    if (at(locked_, mesh_.from_vertex_handle(h))) h = mesh_.opposite_halfedge_handle(h);
+    const Vec3 x = place(h).point;
+    if (breaks_topology(h) || joins_touching(h) || !look_around(h, x)) return;
+    if (turns_too_far(star_) || folds(star_) || makes_sliver(star_)) return;
+    if (crosses_surface(star_, {tree_, point_, triangle_, id_})) return;
+    collapse(h, x);
+  }
+
+  /// `from` disappears, `to` moves to x unless it is locked.
+  void collapse(HalfedgeHandle h, const Vec3 &x) {
+    const VertexHandle from = mesh_.from_vertex_handle(h), to = mesh_.to_vertex_handle(h);
+    const HalfedgeHandle o = mesh_.opposite_halfedge_handle(h);
+    if (!at(locked_, to)) {
+      at(scalar_, to) = value_along_edge(from, to, x);
+      at(point_, to) = x;
+      at(origin_, to) = -1;
+    }
+    for (HalfedgeHandle side : {h, o}) {
+      tree_.refit(mesh_.face_handle(side).idx(), Box());
+      const HalfedgeHandle next = mesh_.next_halfedge_handle(side);
+      for (HalfedgeHandle gone : {side, next, mesh_.next_halfedge_handle(next)})
+        queue_.remove(mesh_.edge_handle(gone).idx());
+    }
+    mesh_.collapse(h);
+    edges_ -= 3;
+    update_around(to);
+  }
+
+  double value_along_edge(VertexHandle from, VertexHandle to, const Vec3 &x) const {
+    const Vec3 edge = point(to) - point(from);
+    const double whole = length2(edge);
+    const double t = whole > 0 ? std::clamp(glm::dot(x - point(from), edge) / whole, 0.0, 1.0) : 0.5;
+    return (1 - t) * at(scalar_, from) + t * at(scalar_, to);
+  }
+
+  void update_around(VertexHandle centre) {
+    const HalfedgeHandle first = mesh_.halfedge_handle(centre);
+    HalfedgeHandle h = first;
+    do {
+      update_face(h);
+      h = next_around(h);
+    } while (h != first);
+    update_sums(centre);
+    do {
+      update_sums(mesh_.to_vertex_handle(h));
+      h = next_around(h);
+    } while (h != first);
+    now_++;
+    do {
+      update_costs_at(mesh_.to_vertex_handle(h));
+      h = next_around(h);
+    } while (h != first);
+  }
+
+  void update_face(HalfedgeHandle spoke) {
+    const OpenMesh::FaceHandle face = mesh_.face_handle(spoke);
+    const Triangle t{mesh_.from_vertex_handle(spoke).idx(), mesh_.to_vertex_handle(spoke).idx(), apex(spoke).idx()};
+    at(triangle_, face) = t;
+    at(plane_, face) = plane_of(point(t[0]), point(t[1]), point(t[2]));
+    tree_.refit(face.idx(), box_of(t));
+  }
+
+  void update_costs_at(VertexHandle v) {
+    const HalfedgeHandle first = mesh_.halfedge_handle(v);
+    HalfedgeHandle h = first;
+    do {
+      const OpenMesh::EdgeHandle edge = mesh_.edge_handle(h);
+      if (at(stamp_, edge) != now_) update_cost(edge);
+      at(stamp_, edge) = now_;
+      h = next_around(h);
+    } while (h != first);
+  }
+
+  const Surface &surface_;
+  Job &job_;
+  double lambda_;
+  bool by_length_ = false;
+  std::int64_t edges_ = 0;
+  MemoryCharge charge_;
+  Mesh mesh_;
+  Array<Vec3> point_{&job_.memory};
+  Array<double> scalar_{&job_.memory};
+  Array<std::int32_t> id_{&job_.memory}, origin_{&job_.memory};
+  Array<std::uint8_t> locked_{&job_.memory}, touching_{&job_.memory};
+  Array<Triangle> triangle_{&job_.memory};
+  Array<TrianglePlane> plane_{&job_.memory};
+  Array<VolumeSums> volume_{&job_.memory};
+  Array<LinkSums> link_{&job_.memory};
+  Array<std::int32_t> stamp_{&job_.memory};
+  std::int32_t now_ = 0;
+  KdTree tree_{job_.memory};
+  EdgeQueue queue_;
+  Star star_{job_.memory};
+};
+
+double diagonal_of(const Surface &surface) {
+  Box box;
+  for (const Vec3 &p : surface.points) box.add(p);
+  return glm::length(box.high - box.low);
+}
+
+}  // namespace
+
+DecimateReport decimate_boundary(Surface &surface, const SurfaceTopology &topology, Span<const std::uint8_t> locked,
+                                 const DecimateOptions &options, Job &job) {
+  Decimator decimator(surface, topology, locked, options.lambda, job);
+  DecimateReport report;
+  report.edges_in = decimator.edges();
+  const auto target = std::int64_t(std::ceil(options.sigma * double(report.edges_in)));
+  if (options.clean_edges > 0) decimator.collapse_until(target, options.clean_edges * diagonal_of(surface));
+  report.cleaned_edges = (report.edges_in - decimator.edges()) / 3;
+  decimator.collapse_until(target, 0);
+  report.edges_out = decimator.edges();
+  Surface simplified(job.memory);
+  decimator.write(simplified);
+  surface = std::move(simplified);
+  return report;
+}
+
+}  // namespace tetlod

@@ -1,0 +1,28 @@
+// 3.2  Decimation of the boundary by edge collapse: Lindstrom-Turk placement, shape cost, nothing broken.
+#pragma once
+#include <cstdint>
+
+#include "job.hpp"
+#include "mesh.hpp"
+#include "surface_topology.hpp"
+
+namespace tetlod {
+
+struct DecimateOptions {
+  double sigma = 0.1;      ///< edges kept, fraction of the surface's
+  double lambda = 0.1;     ///< shape optimization weight
+  double clean_edges = 0;  ///< edges shorter than this fraction of the diagonal are collapsed first
+};
+
+struct DecimateReport {
+  std::int64_t edges_in = 0, edges_out = 0;  ///< of the cut surface
+  std::int64_t cleaned_edges = 0;
+};
+
+/// `topology` is the surface's own. Collapses edges of `surface`, lowest cost first, until at most sigma of its edges are left or no collapse is
+/// admissible. Points with locked[i] != 0 (empty: none), and points where the surface touches itself, stay. What is
+/// handed back is closed, of the same topology, and crosses itself nowhere that the input did not.
+DecimateReport decimate_boundary(Surface &surface, const SurfaceTopology &topology, Span<const std::uint8_t> locked,
+                                 const DecimateOptions &options, Job &job);
+
+}  // namespace tetlod
