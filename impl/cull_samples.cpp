@@ -1,0 +1,53 @@
+#include "cull_samples.hpp"
+
+#include "geometry.hpp"
+#include "surface_distance.hpp"
+
+namespace tetlod {
+
+namespace {
+
+enum class Verdict : std::uint8_t { keep, outside, too_near };
+
+/// Of the triangle's least height; nearer points make TetGen slow, or replace vertices.
+constexpr double least_of_height = 0.02;
+
+double least_height(const Surface &surface, std::int32_t triangle) {
+  const Triangle &t = surface.triangles[std::size_t(triangle)];
+  const Vec3 &a = surface.points[std::size_t(t[0])], &b = surface.points[std::size_t(t[1])],
+             &c = surface.points[std::size_t(t[2])];
+  const double longest = std::max({length2(b - a), length2(c - b), length2(a - c)});
+  return longest > 0 ? glm::length(area_vector(a, b, c)) / std::sqrt(longest) : 0;
+}
+
+Verdict judge(const Vec3 &p, const Surface &surface, const SurfaceDistance &distance, double min_distance) {
+  NearestPoint nearest;
+  const double inside = distance.signed_distance(p, nearest);
+  if (!(inside > 0)) return Verdict::outside;
+  const double least = std::max(min_distance, least_of_height * least_height(surface, nearest.triangle));
+  return inside < least ? Verdict::too_near : Verdict::keep;
+}
+
+}  // namespace
+
+CullReport cull_samples(Span<const Vec3> points, const Surface &surface, const SurfaceTopology &topology,
+                        double min_distance, std::int64_t leaf, Job &job, Array<std::int32_t> &samples) {
+  const SurfaceDistance distance(surface, topology, leaf, job.memory);
+  Array<Verdict> verdicts(samples.size(), Verdict::keep, &job.memory);
+  job.parallel.for_blocks(samples.size(), 64, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; i++)
+      verdicts[i] = judge(points[std::size_t(samples[i])], surface, distance, min_distance);
+    job.poll(double(end) / double(samples.size()));
+  });
+  CullReport report;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < samples.size(); i++) {
+    report.outside += verdicts[i] == Verdict::outside;
+    report.too_near += verdicts[i] == Verdict::too_near;
+    if (verdicts[i] == Verdict::keep) samples[kept++] = samples[i];
+  }
+  samples.resize(kept);
+  return report;
+}
+
+}  // namespace tetlod

@@ -1,0 +1,21 @@
+// 3.3  Samples outside the simplified boundary, or too near to it, are removed.
+#pragma once
+#include <cstdint>
+
+#include "job.hpp"
+#include "mesh.hpp"
+#include "surface_topology.hpp"
+
+namespace tetlod {
+
+struct CullReport {
+  std::int64_t outside = 0, too_near = 0;
+};
+
+/// Keeps, in order, the samples (numbers of points) that are inside the surface and at least min_distance from it,
+/// and never nearer than a small part of the nearest triangle's height, which TetGen needs. `topology` is the
+/// surface's; at most `leaf` triangles are in a leaf of the k-d tree.
+CullReport cull_samples(Span<const Vec3> points, const Surface &surface, const SurfaceTopology &topology,
+                        double min_distance, std::int64_t leaf, Job &job, Array<std::int32_t> &samples);
+
+}  // namespace tetlod

@@ -1,0 +1,16 @@
+// 3.5  Values of the original field at points of the simplified mesh.
+#pragma once
+#include <cstdint>
+
+#include "job.hpp"
+#include "mesh.hpp"
+
+namespace tetlod {
+
+/// values[i]: the field of `mesh` at points[i], linear in the tet that holds the point. A point outside of every tet
+/// takes the value at the nearest point of the boundary, so that all values are within the field's range.
+/// Only tets whose box holds a point get into the k-d tree, at most `leaf` in a leaf.
+void interpolate(const MeshView &mesh, Span<const Triangle> boundary, Span<const Vec3> points, std::int64_t leaf,
+                 Job &job, Array<double> &values);
+
+}  // namespace tetlod

@@ -1,0 +1,155 @@
+#include "measure_error.hpp"
+
+#include <cmath>
+
+#include "geometry.hpp"
+#include "kd_tree.hpp"
+#include "prepare.hpp"
+
+namespace tetlod {
+
+namespace {
+
+/// A point this far out of a tet, in barycentric weight, still belongs to it.
+constexpr double tolerance = 1e-6;
+constexpr std::size_t block = 512;
+
+/// The result's piecewise linear field.
+class Field {
+ public:
+  Field(const TetMesh &mesh, Memory &memory) : mesh_(mesh), tree_(memory) {
+    Array<Box> boxes(mesh.tets.size(), &memory);
+    for (std::size_t t = 0; t < boxes.size(); t++) {
+      for (std::int32_t v : mesh.tets[t]) boxes[t].add(mesh.points[std::size_t(v)]);
+      const Vec3 margin = tolerance * (boxes[t].high - boxes[t].low);
+      boxes[t].low -= margin;
+      boxes[t].high += margin;
+    }
+    tree_.build(std::move(boxes), 4);
+  }
+
+  bool value_at(const Vec3 &p, double &value) const {
+    double best = -tolerance;
+    bool found = false;
+    tree_.any_overlap({p, p}, [&](std::int32_t item) {
+      const Tet &t = mesh_.tets[std::size_t(item)];
+      double w[4];
+      barycentric(p, mesh_.points[std::size_t(t[0])], mesh_.points[std::size_t(t[1])], mesh_.points[std::size_t(t[2])],
+                  mesh_.points[std::size_t(t[3])], w);
+      const double least = std::min({w[0], w[1], w[2], w[3]});
+      if (least > best) {
+        best = least;
+        found = true;
+        value = 0;
+        for (std::size_t k = 0; k < 4; k++) value += w[k] * mesh_.scalars[std::size_t(t[k])];
+      }
+      return best >= 0;
+    });
+    return found;
+  }
+
+ private:
+  const TetMesh &mesh_;
+  KdTree tree_;
+};
+
+/// Sums of one block; blocks are added up in order, so the total does not depend on threads.
+struct Tally {
+  double squares = 0, worst = 0;
+  std::int64_t inside = 0, outside = 0;
+
+  void add(const Field &field, const Vec3 &p, double original) {
+    double value;
+    if (!field.value_at(p, value)) {
+      outside++;
+      return;
+    }
+    const double error = std::abs(value - original);
+    squares += error * error;
+    worst = std::max(worst, error);
+    inside++;
+  }
+  void add(const Tally &o) {
+    squares += o.squares;
+    worst = std::max(worst, o.worst);
+    inside += o.inside;
+    outside += o.outside;
+  }
+  double rms() const { return inside ? std::sqrt(squares / double(inside)) : 0; }
+  double share_outside() const { return inside + outside ? double(outside) / double(inside + outside) : 0; }
+};
+
+template <class Add>
+Tally tally_blocks(std::size_t count, Job &job, double begin_fraction, const Add &add) {
+  Array<Tally> tallies((count + block - 1) / block, &job.memory);
+  job.parallel.for_blocks(count, block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; i++) add(i, tallies[begin / block]);
+    job.poll(begin_fraction + 0.5 * double(end) / double(count));
+  });
+  Tally total;
+  for (const Tally &t : tallies) total.add(t);
+  return total;
+}
+
+/// Uniform in (0, 1], a number for each key: no state, so any thread may ask for any sample.
+double random_unit(std::uint64_t key) {
+  key += 0x9e3779b97f4a7c15u;
+  key = (key ^ (key >> 30)) * 0xbf58476d1ce4e5b9u;
+  key = (key ^ (key >> 27)) * 0x94d049bb133111ebu;
+  key ^= key >> 31;
+  return double((key >> 11) + 1) * 0x1p-53;
+}
+
+/// A uniform sample of a tet: exponential variates, normalised.
+void add_sample(const MeshView &mesh, std::size_t tet, std::uint64_t key, const Field &field, Tally &tally) {
+  double weights[4], total = 0;
+  for (std::uint64_t k = 0; k < 4; k++) total += weights[k] = -std::log(random_unit(4 * key + k)) + 1e-300;
+  Vec3 p(0);
+  double value = 0;
+  for (std::size_t k = 0; k < 4; k++) {
+    const auto v = std::size_t(mesh.tets[tet][k]);
+    p += weights[k] / total * mesh.points[v];
+    value += weights[k] / total * mesh.scalars[v];
+  }
+  tally.add(field, p, value);
+}
+
+}  // namespace
+
+FieldError measure_error(const MeshView &original, double range, const TetMesh &result, int samples_per_tet,
+                         std::uint64_t seed, Job &job) {
+  const Field field(result, job.memory);
+  Array<std::uint8_t> used(original.points.size(), 0, &job.memory);
+  for (const Tet &t : original.tets)
+    for (std::int32_t v : t) used[std::size_t(v)] = 1;
+  const Tally at_vertices = tally_blocks(original.points.size(), job, 0, [&](std::size_t v, Tally &tally) {
+    if (used[v]) tally.add(field, original.points[v], original.scalars[v]);
+  });
+  const auto samples = std::uint64_t(samples_per_tet);
+  const Tally inside = tally_blocks(samples ? original.tets.size() : 0, job, 0.5, [&](std::size_t t, Tally &tally) {
+    for (std::uint64_t s = 0; s < samples; s++)
+      add_sample(original, t, (seed << 40) + std::uint64_t(t) * samples + s, field, tally);
+  });
+  const double unit = range > 0 ? range : 1;
+  return {at_vertices.rms() / unit, at_vertices.worst / unit, at_vertices.share_outside(),
+          inside.rms() / unit,      inside.worst / unit,      inside.share_outside()};
+}
+
+FieldError measure_error(const Input &input, const Options &options, const TetMesh &result, int samples_per_tet,
+                         Job &job) {
+  Original original(job.memory);
+  prepare_original(input, options.merge_tolerance, job, original);
+  return measure_error(original.view, original.scalar_max - original.scalar_min, result, samples_per_tet,
+                       std::uint64_t(options.seed), job);
+}
+
+void histogram(Span<const double> values, double low, double high, Span<std::int64_t> counts) {
+  const double width = (high - low) / double(counts.size());
+  for (double value : values) {
+    if (!(value >= low && value <= high)) continue;
+    const double bin = width > 0 ? (value - low) / width : 0;
+    counts[std::min(std::size_t(bin), counts.size() - 1)]++;
+  }
+}
+
+}  // namespace tetlod

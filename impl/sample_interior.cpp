@@ -1,0 +1,119 @@
+#include "sample_interior.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tetlod {
+
+namespace {
+
+/// A run of the vertices, [begin, end).
+struct Cell {
+  std::size_t begin, end;
+};
+
+class SamplingTree {
+ public:
+  SamplingTree(const MeshView &mesh, Span<std::int32_t> vertices, double variation, Job &job)
+      : mesh_(mesh), vertices_(vertices), variation_(variation), job_(job) {}
+
+  /// Depth first, so that the leaves come in the order of the vertices' runs; a stack of its own, because values that
+  /// separate one vertex at a time make a tree as deep as there are vertices.
+  void sample(Array<std::int32_t> &samples) const {
+    Array<Cell> stack(&job_.memory);
+    if (!vertices_.empty()) stack.push_back({0, vertices_.size()});
+    while (!stack.empty()) {
+      const Cell cell = stack.back();
+      stack.pop_back();
+      const Extremes extremes = extremes_of(cell);
+      if (extremes.variation <= variation_) {
+        samples.push_back(nearest_to_mean(cell));
+        job_.poll(double(cell.end) / double(vertices_.size()));
+        continue;
+      }
+      const std::size_t middle = split(cell, extremes);
+      if (middle == cell.begin) {  // coincident points: nothing separates them
+        samples.push_back(nearest_to_mean(cell));
+        continue;
+      }
+      stack.push_back({middle, cell.end});
+      stack.push_back({cell.begin, middle});
+    }
+  }
+
+ private:
+  struct Extremes {
+    Vec3 at_least, at_most;  // the paper's x_min and x_max
+    double variation;
+  };
+
+  const Vec3 &point(std::int32_t v) const { return mesh_.points[std::size_t(v)]; }
+  double value(std::int32_t v) const { return mesh_.scalars[std::size_t(v)]; }
+
+  Extremes extremes_of(const Cell &cell) const {
+    std::int32_t least = vertices_[cell.begin], most = least;
+    for (std::size_t i = cell.begin + 1; i < cell.end; i++) {
+      const std::int32_t v = vertices_[i];
+      if (value(v) < value(least)) least = v;
+      if (value(v) > value(most)) most = v;
+    }
+    return {point(least), point(most), value(most) - value(least)};
+  }
+
+  /// Cuts at the middle of g = x_max - x_min on the axis where g is longest. Returns where the second half begins;
+  /// cell.begin when the points cannot be separated.
+  std::size_t split(const Cell &cell, const Extremes &extremes) const {
+    const Vec3 g = extremes.at_most - extremes.at_least;
+    int axis = 0;
+    for (int k = 1; k < 3; k++)
+      if (std::abs(g[k]) > std::abs(g[axis])) axis = k;
+    const double cut = extremes.at_least[axis] + 0.5 * g[axis];
+    const auto first = vertices_.begin() + cell.begin, last = vertices_.begin() + cell.end;
+    const auto middle = std::partition(first, last, [&](std::int32_t v) { return point(v)[axis] < cut; });
+    if (middle != first && middle != last) return std::size_t(middle - vertices_.begin());
+    return split_at_median(cell);
+  }
+
+  /// For cells that the cut does not separate (x_min and x_max rounded to one side, or at one place).
+  std::size_t split_at_median(const Cell &cell) const {
+    Box box;
+    for (std::size_t i = cell.begin; i < cell.end; i++) box.add(point(vertices_[i]));
+    const Vec3 extent = box.high - box.low;
+    const int axis = extent.x >= extent.y ? (extent.x >= extent.z ? 0 : 2) : (extent.y >= extent.z ? 1 : 2);
+    if (!(extent[axis] > 0)) return cell.begin;
+    const auto first = vertices_.begin() + cell.begin, last = vertices_.begin() + cell.end;
+    const auto less = [&](std::int32_t a, std::int32_t b) {
+      return point(a)[axis] != point(b)[axis] ? point(a)[axis] < point(b)[axis] : a < b;
+    };
+    const auto middle = first + (last - first) / 2;
+    std::nth_element(first, middle, last, less);
+    return std::size_t(middle - vertices_.begin());
+  }
+
+  std::int32_t nearest_to_mean(const Cell &cell) const {
+    double sum = 0;
+    for (std::size_t i = cell.begin; i < cell.end; i++) sum += value(vertices_[i]);
+    const double mean = sum / double(cell.end - cell.begin);
+    std::int32_t best = vertices_[cell.begin];
+    for (std::size_t i = cell.begin + 1; i < cell.end; i++) {
+      const std::int32_t v = vertices_[i];
+      const double d = std::abs(value(v) - mean), best_d = std::abs(value(best) - mean);
+      if (d < best_d || (d == best_d && v < best)) best = v;
+    }
+    return best;
+  }
+
+  const MeshView &mesh_;
+  Span<std::int32_t> vertices_;
+  double variation_;
+  Job &job_;
+};
+
+}  // namespace
+
+void sample_interior(const MeshView &mesh, Span<std::int32_t> vertices, double variation, Job &job,
+                     Array<std::int32_t> &samples) {
+  SamplingTree(mesh, vertices, variation, job).sample(samples);
+}
+
+}  // namespace tetlod

@@ -1,0 +1,16 @@
+// 3.1  Sampling the interior points with a k-d tree whose leaves have bounded variation.
+#pragma once
+#include <cstdint>
+
+#include "job.hpp"
+#include "mesh.hpp"
+
+namespace tetlod {
+
+/// One vertex for each leaf of the tree over `vertices`, in the order of the leaves. A node is split while the variation
+/// of its values exceeds `variation` (rho times the range of the field); the sample of a leaf is the vertex whose value
+/// is nearest the leaf's mean, the lowest numbered of equals. `vertices` is reordered.
+void sample_interior(const MeshView &mesh, Span<std::int32_t> vertices, double variation, Job &job,
+                     Array<std::int32_t> &samples);
+
+}  // namespace tetlod

@@ -1,0 +1,123 @@
+#include "surface_distance.hpp"
+
+#include <cmath>
+
+#include "geometry.hpp"
+
+namespace tetlod {
+
+namespace {
+
+double angle_between(const Vec3 &a, const Vec3 &b) { return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)); }
+
+/// The solid angle of a triangle seen from p (Van Oosterom and Strackee 1983), positive from its inner side.
+double solid_angle(const Vec3 &p, const Vec3 &x, const Vec3 &y, const Vec3 &z) {
+  const Vec3 a = x - p, b = y - p, c = z - p;
+  const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
+  const double above = glm::dot(a, glm::cross(b, c));
+  const double below = la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb;
+  return 2 * std::atan2(above, below);
+}
+
+constexpr double four_pi = 12.566370614359172;
+
+}  // namespace
+
+NearestTriangle::NearestTriangle(Span<const Vec3> points, Span<const Triangle> triangles, std::int64_t leaf,
+                                 Memory &memory)
+    : points_(points), triangles_(triangles), tree_(memory) {
+  Array<Box> boxes(triangles.size(), &memory);
+  for (std::size_t t = 0; t < triangles.size(); t++)
+    for (std::int32_t v : triangles[t]) boxes[t].add(points[std::size_t(v)]);
+  tree_.build(std::move(boxes), leaf);
+}
+
+NearestPoint NearestTriangle::nearest(const Vec3 &p) const {
+  NearestPoint best;
+  double distance2 = std::numeric_limits<double>::infinity();
+  const auto weights_in = [&](std::int32_t t, Vec3 &at) {
+    const Triangle &corner = triangles_[std::size_t(t)];
+    const Vec3 &a = points_[std::size_t(corner[0])], &b = points_[std::size_t(corner[1])],
+               &c = points_[std::size_t(corner[2])];
+    const Vec3 w = nearest_in_triangle(p, a, b, c);
+    at = w.x * a + w.y * b + w.z * c;
+    return w;
+  };
+  Vec3 at;
+  best.triangle = tree_.nearest(p, distance2, [&](std::int32_t t) {
+    weights_in(t, at);
+    return length2(at - p);
+  });
+  best.weights = weights_in(best.triangle, at);
+  best.distance = std::sqrt(distance2);
+  return best;
+}
+
+SurfaceDistance::SurfaceDistance(const Surface &surface, const SurfaceTopology &topology, std::int64_t leaf,
+                                 Memory &memory)
+    : surface_(surface),
+      topology_(topology),
+      nearest_(surface.points, surface.triangles, leaf, memory),
+      vertex_normal_(topology.vertex_of.size(), Vec3(0), &memory) {
+  for (std::size_t t = 0; t < surface.triangles.size(); t++) {
+    const Triangle &v = surface.triangles[t];
+    const Vec3 normal = unit_normal(std::int32_t(t));
+    for (std::size_t k = 0; k < 3; k++) {
+      const Vec3 &at = surface.points[std::size_t(v[k])];
+      const double angle = angle_between(surface.points[std::size_t(v[(k + 1) % 3])] - at,
+                                         surface.points[std::size_t(v[(k + 2) % 3])] - at);
+      vertex_normal_[std::size_t(topology.sheet_vertex[3 * t + k])] += angle * normal;
+    }
+  }
+}
+
+Vec3 SurfaceDistance::unit_normal(std::int32_t triangle) const {
+  const Triangle &v = surface_.triangles[std::size_t(triangle)];
+  const Vec3 normal = area_vector(surface_.points[std::size_t(v[0])], surface_.points[std::size_t(v[1])],
+                                  surface_.points[std::size_t(v[2])]);
+  const double length = glm::length(normal);
+  return length > 0 ? normal / length : Vec3(0);
+}
+
+bool SurfaceDistance::pseudonormal(const NearestPoint &at, Vec3 &normal) const {
+  const Triangle &v = surface_.triangles[std::size_t(at.triangle)];
+  int zeros = 0, zero = 0, other = 0;
+  for (int k = 0; k < 3; k++)
+    if (at.weights[k] == 0) {
+      zeros++;
+      zero = k;
+    } else {
+      other = k;
+    }
+  normal = unit_normal(at.triangle);
+  if (zeros == 0) return true;
+  if (zeros == 1) {  // on the edge opposite corner `zero`
+    const int from = (zero + 1) % 3, to = (zero + 2) % 3;
+    if (topology_.touching[std::size_t(v[std::size_t(from)])] && topology_.touching[std::size_t(v[std::size_t(to)])])
+      return false;
+    normal += unit_normal(topology_.mate[std::size_t(3 * at.triangle + from)] / 3);
+    return true;
+  }
+  if (topology_.touching[std::size_t(v[std::size_t(other)])]) return false;
+  normal = vertex_normal_[std::size_t(topology_.sheet_vertex[std::size_t(3 * at.triangle + other)])];
+  return true;
+}
+
+bool SurfaceDistance::inside_by_winding(const Vec3 &p) const {
+  double sum = 0;
+  for (const Triangle &t : surface_.triangles)
+    sum += solid_angle(p, surface_.points[std::size_t(t[0])], surface_.points[std::size_t(t[1])],
+                       surface_.points[std::size_t(t[2])]);
+  return sum > 0.5 * four_pi;
+}
+
+double SurfaceDistance::signed_distance(const Vec3 &p, NearestPoint &nearest) const {
+  nearest = nearest_.nearest(p);
+  const Triangle &v = surface_.triangles[std::size_t(nearest.triangle)];
+  Vec3 at(0), normal;
+  for (int k = 0; k < 3; k++) at += nearest.weights[k] * surface_.points[std::size_t(v[std::size_t(k)])];
+  const bool inside = pseudonormal(nearest, normal) ? glm::dot(p - at, normal) < 0 : inside_by_winding(p);
+  return inside ? nearest.distance : -nearest.distance;
+}
+
+}  // namespace tetlod

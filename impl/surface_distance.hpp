@@ -1,0 +1,53 @@
+// 3.3  A k-d tree over the triangles of a closed surface: how far is a point from it, and on which side.
+#pragma once
+#include <cstdint>
+
+#include "job.hpp"
+#include "kd_tree.hpp"
+#include "mesh.hpp"
+#include "surface_topology.hpp"
+
+namespace tetlod {
+
+/// The point of a surface that is nearest to another.
+struct NearestPoint {
+  std::int32_t triangle = -1;
+  Vec3 weights{0};  ///< barycentric, in the triangle
+  double distance = 0;
+};
+
+class NearestTriangle {
+ public:
+  NearestTriangle(Span<const Vec3> points, Span<const Triangle> triangles, std::int64_t leaf, Memory &memory);
+  NearestPoint nearest(const Vec3 &p) const;
+  const Box &box() const { return tree_.box(); }
+
+ private:
+  Span<const Vec3> points_;
+  Span<const Triangle> triangles_;
+  KdTree tree_;
+};
+
+/// Tells inside from outside for every point that is not on the surface itself. The side is that of the angle-weighted
+/// pseudonormal at the nearest point (Baerentzen and Aanaes 2005); where the surface touches itself that has no
+/// meaning, and the winding number decides.
+class SurfaceDistance {
+ public:
+  SurfaceDistance(const Surface &surface, const SurfaceTopology &topology, std::int64_t leaf, Memory &memory);
+
+  /// Positive inside.
+  double signed_distance(const Vec3 &p, NearestPoint &nearest) const;
+  const Box &box() const { return nearest_.box(); }
+
+ private:
+  Vec3 unit_normal(std::int32_t triangle) const;
+  bool pseudonormal(const NearestPoint &at, Vec3 &normal) const;
+  bool inside_by_winding(const Vec3 &p) const;
+
+  const Surface &surface_;
+  const SurfaceTopology &topology_;
+  NearestTriangle nearest_;
+  Array<Vec3> vertex_normal_;  // of each vertex of the cut surface
+};
+
+}  // namespace tetlod
