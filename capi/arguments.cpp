@@ -1,0 +1,172 @@
+#include "arguments.hpp"
+
+#include <cinttypes>
+#include <limits>
+
+namespace tetlod::capi {
+
+namespace {
+
+constexpr std::size_t array_size = TETLOD_SIZE_TO(tetlod_array, data);
+
+static_assert(std::int32_t(ElementType::int32) == TETLOD_INT32 && std::int32_t(ElementType::int64) == TETLOD_INT64, "");
+static_assert(std::int32_t(ElementType::float32) == TETLOD_FLOAT32, "");
+static_assert(std::int32_t(ElementType::float64) == TETLOD_FLOAT64, "");
+static_assert(std::int32_t(ElementType::uint8) == TETLOD_UINT8, "");
+
+std::int64_t alignment_of(ElementType type) {
+  switch (type) {
+    case ElementType::int32: return alignof(std::int32_t);
+    case ElementType::int64: return alignof(std::int64_t);
+    case ElementType::float32: return alignof(float);
+    case ElementType::float64: return alignof(double);
+    case ElementType::uint8: return 1;
+  }
+  return 1;
+}
+
+void require_type(const tetlod_array &array, const Shape &shape) {
+  const bool reals = array.type == TETLOD_FLOAT32 || array.type == TETLOD_FLOAT64;
+  const bool integers = array.type == TETLOD_INT32 || array.type == TETLOD_INT64;
+  if (shape.kind == Shape::reals && !reals)
+    fail(Status::argument, "%s: type %d is neither TETLOD_FLOAT32 (3) nor TETLOD_FLOAT64 (4)", shape.name, array.type);
+  if (shape.kind == Shape::integers && !integers)
+    fail(Status::argument, "%s: type %d is neither TETLOD_INT32 (1) nor TETLOD_INT64 (2)", shape.name, array.type);
+}
+
+void require_components(const tetlod_array &array, const Shape &shape) {
+  if (array.components != shape.components)
+    fail(Status::argument, "%s: %d components, %d are needed", shape.name, array.components, shape.components);
+}
+
+void require_reserved(const tetlod_array &array, const Shape &shape) {
+  if (array.reserved != 0) fail(Status::argument, "%s: reserved is %d, not 0", shape.name, array.reserved);
+}
+
+void require_count(const tetlod_array &array, const Shape &shape) {
+  if (array.tuples < 0) fail(Status::argument, "%s: %" PRId64 " tuples", shape.name, array.tuples);
+}
+
+void require_manageable(const tetlod_array &array, const Shape &shape) {
+  if (array.tuples > max_count)
+    fail(Status::mesh_too_large, "%s: %" PRId64 " tuples, %" PRId64 " is the most", shape.name, array.tuples,
+         max_count);
+}
+
+void require_data(const tetlod_array &array, const Shape &shape, std::int64_t alignment) {
+  if (array.tuples == 0) return;
+  if (!array.data) fail(Status::argument, "%s: data is NULL with %" PRId64 " tuples", shape.name, array.tuples);
+  if (reinterpret_cast<std::uintptr_t>(array.data) % std::uintptr_t(alignment) != 0)
+    fail(Status::argument, "%s: data %p is not a multiple of %" PRId64, shape.name, array.data, alignment);
+}
+
+void require_stride(std::int64_t stride, const char *which, const Shape &shape, std::int64_t alignment) {
+  if (stride % alignment != 0)
+    fail(Status::argument, "%s: %s %" PRId64 " is not a multiple of %" PRId64, shape.name, which, stride, alignment);
+}
+
+/// How far the elements reach before and beyond the first one, in bytes.
+struct Reach {
+  std::int64_t before = 0, beyond = 0;
+  bool overflow = false;
+
+  void add(std::int64_t steps, std::int64_t stride) {
+    std::int64_t way;
+    std::int64_t &side = stride < 0 ? before : beyond;
+    overflow = overflow || __builtin_mul_overflow(steps, stride, &way) || __builtin_add_overflow(side, way, &side);
+  }
+};
+
+/// Every byte that the array describes has an address.
+void require_range(const StridedArray &array, const Shape &shape) {
+  if (array.tuples == 0) return;
+  Reach reach;
+  reach.add(array.tuples - 1, array.tuple_stride);
+  reach.add(array.components - 1, array.component_stride);
+  reach.add(1, std::int64_t(element_size(array.type)));
+  const auto address = reinterpret_cast<std::uintptr_t>(array.data);
+  const bool below = std::uint64_t(0) - std::uint64_t(reach.before) > address;
+  const bool above = std::uint64_t(reach.beyond) > std::numeric_limits<std::uintptr_t>::max() - address;
+  if (reach.overflow || below || above)
+    fail(Status::argument,
+         "%s: %" PRId64 " tuples with strides %" PRId64 " and %" PRId64 " go beyond the address space", shape.name,
+         array.tuples, array.tuple_stride, array.component_stride);
+}
+
+/// No two elements in one place: c component strides are never as long as some tuple strides.
+void require_apart(const StridedArray &array, const Shape &shape) {
+  for (int c = 1; c < array.components; c++) {
+    const std::int64_t way = c * array.component_stride;
+    if (way % array.tuple_stride != 0) continue;
+    const std::int64_t tuples = way / array.tuple_stride;
+    if (tuples < array.tuples && -tuples < array.tuples)
+      fail(Status::argument, "%s: with strides %" PRId64 " and %" PRId64 " elements share memory", shape.name,
+           array.tuple_stride, array.component_stride);
+  }
+}
+
+StridedArray with_strides(const tetlod_array &array) {
+  StridedArray result;
+  result.type = ElementType(array.type);
+  result.tuples = array.tuples;
+  result.components = array.components;
+  const auto size = std::int64_t(element_size(result.type));
+  result.component_stride = array.component_stride ? array.component_stride : size;
+  result.tuple_stride = array.tuple_stride ? array.tuple_stride : array.components * size;
+  result.data = static_cast<unsigned char *>(array.data);
+  result.present = true;
+  return result;
+}
+
+void require_shape(const tetlod_array *array, const Shape &shape) {
+  require_struct(array, shape.name, array_size);
+  require_reserved(*array, shape);
+  require_type(*array, shape);
+  require_components(*array, shape);
+  require_count(*array, shape);
+}
+
+StridedArray checked_layout(const tetlod_array &array, const Shape &shape) {
+  const std::int64_t alignment = alignment_of(ElementType(array.type));
+  require_data(array, shape, alignment);
+  require_stride(array.tuple_stride, "tuple_stride", shape, alignment);
+  require_stride(array.component_stride, "component_stride", shape, alignment);
+  const StridedArray result = with_strides(array);
+  require_range(result, shape);
+  return result;
+}
+
+}  // namespace
+
+void require_address(const void *pointer, std::size_t alignment, const char *name) {
+  if (!pointer) fail(Status::argument, "%s is NULL", name);
+  if (reinterpret_cast<std::uintptr_t>(pointer) % alignment != 0)
+    fail(Status::argument, "%s %p is not a multiple of %zu", name, pointer, alignment);
+}
+
+void require_size(std::uint32_t struct_size, std::size_t least, const char *name) {
+  if (struct_size < least) fail(Status::struct_size, "%s: struct_size is %u, at least %zu", name, struct_size, least);
+}
+
+void require_index_base(std::int32_t index_base) {
+  if (index_base != 0 && index_base != 1) fail(Status::argument, "index_base %d is neither 0 nor 1", index_base);
+}
+
+StridedArray checked_source(const tetlod_array *array, const Shape &shape) {
+  require_shape(array, shape);
+  require_manageable(*array, shape);
+  return checked_layout(*array, shape);
+}
+
+StridedArray checked_destination(const tetlod_array *array, const Shape &shape, std::size_t tuples) {
+  require_shape(array, shape);
+  if (array->tuples < std::int64_t(tuples))
+    fail(Status::buffer_size, "%s: room for %" PRId64 " tuples, the result has %zu", shape.name, array->tuples, tuples);
+  const StridedArray result = checked_layout(*array, shape);
+  require_apart(result, shape);
+  return result;
+}
+
+void require_view(const tetlod_array *array) { require_struct(array, "out", array_size); }
+
+}  // namespace tetlod::capi

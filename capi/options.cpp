@@ -1,0 +1,172 @@
+// Options: one table, and what is asked of it.
+#include <cinttypes>
+#include <cstring>
+
+#include "arguments.hpp"
+#include "context.hpp"
+
+namespace tetlod::capi {
+
+namespace {
+
+/// Defaults are those of tetlod::Options, so they stand in one place.
+struct Option {
+  std::int32_t number;
+  const char *name;
+  double Options::*real;           ///< one of the two
+  std::int64_t Options::*integer;  ///< is null
+  double least, most;
+  bool in_paper;  ///< governed by TETLOD_PRESET_PAPER
+};
+
+constexpr double two_to_53 = 9007199254740992.0;  // the integers up to here are doubles, as the bounds are given
+
+constexpr Option option_table[] = {
+    {TETLOD_OPT_RHO, "rho", &Options::rho, nullptr, 0, 1, false},
+    {TETLOD_OPT_SIGMA, "sigma", &Options::sigma, nullptr, 0, 1, false},
+    {TETLOD_OPT_LAMBDA, "lambda", &Options::lambda, nullptr, 0, 1e6, true},
+    {TETLOD_OPT_MIN_DISTANCE, "min-distance", &Options::min_distance, nullptr, 0, 0.5, true},
+    {TETLOD_OPT_MERGE_TOLERANCE, "merge-tolerance", &Options::merge_tolerance, nullptr, 0, 0.1, false},
+    {TETLOD_OPT_CLEAN_EDGES, "clean-edges", &Options::clean_edges, nullptr, 0, 0.1, false},
+    {TETLOD_OPT_BOUNDARY_LEAF, "boundary-leaf", nullptr, &Options::boundary_leaf, 1, 1e6, true},
+    {TETLOD_OPT_TET_LEAF, "tet-leaf", nullptr, &Options::tet_leaf, 1, 1e6, true},
+    {TETLOD_OPT_THREADS, "threads", nullptr, &Options::threads, 0, 1024, false},
+    {TETLOD_OPT_SEED, "seed", nullptr, &Options::seed, 0, two_to_53, false},
+    {TETLOD_OPT_TIME_LIMIT, "time-limit", &Options::time_limit, nullptr, 0, 1e9, false},
+};
+
+const Option *find(std::int32_t number) noexcept {
+  for (const Option &option : option_table)
+    if (option.number == number) return &option;
+  return nullptr;
+}
+
+const Option &require_option(std::int32_t number) {
+  const Option *const option = find(number);
+  if (!option) fail(Status::option, "there is no option %d", number);
+  return *option;
+}
+
+const Option &require_real(std::int32_t number) {
+  const Option &option = require_option(number);
+  if (!option.real) fail(Status::option, "option %d (%s) is an integer", number, option.name);
+  return option;
+}
+
+const Option &require_integer(std::int32_t number) {
+  const Option &option = require_option(number);
+  if (!option.integer) fail(Status::option, "option %d (%s) is real", number, option.name);
+  return option;
+}
+
+[[noreturn]] void fail_bounds(const Option &option, const std::string &value) {
+  fail(Status::option, "%s: %s is not in [%s, %s]", option.name, value.c_str(), number(option.least).c_str(),
+       number(option.most).c_str());
+}
+
+void set_real(Options &options, const Option &option, double value) {
+  const bool inside = value >= option.least && value <= option.most;  // NaN is not
+  if (!inside) fail_bounds(option, number(value));
+  options.*option.real = value;
+}
+
+void set_integer(Options &options, const Option &option, std::int64_t value) {
+  if (value < std::int64_t(option.least) || value > std::int64_t(option.most))
+    fail_bounds(option, text("%" PRId64, value));
+  options.*option.integer = value;
+}
+
+double default_of(const Option &option) {
+  const Options defaults;
+  return option.real ? defaults.*option.real : double(defaults.*option.integer);
+}
+
+tetlod_bounds bounds_of(const Option &option) {
+  tetlod_bounds bounds{};
+  bounds.is_integer = option.integer ? 1 : 0;
+  bounds.least = option.least;
+  bounds.most = option.most;
+  bounds.preset = default_of(option);
+  return bounds;
+}
+
+/// The defaults are the paper's values.
+void set_as_published(Options &options) {
+  const Options paper;
+  for (const Option &option : option_table) {
+    if (!option.in_paper) continue;
+    if (option.real) options.*option.real = paper.*option.real;
+    if (option.integer) options.*option.integer = paper.*option.integer;
+  }
+}
+
+}  // namespace
+
+}  // namespace tetlod::capi
+
+using namespace tetlod;
+using namespace tetlod::capi;
+
+tetlod_status tetlod_set_real(tetlod_context *handle, int32_t option, double value) {
+  return entry(handle, [&](tetlod_context &context) { set_real(context.options, require_real(option), value); });
+}
+
+tetlod_status tetlod_set_int(tetlod_context *handle, int32_t option, int64_t value) {
+  return entry(handle, [&](tetlod_context &context) { set_integer(context.options, require_integer(option), value); });
+}
+
+tetlod_status tetlod_get_real(const tetlod_context *handle, int32_t option, double *out) {
+  return entry(handle, [&](const tetlod_context &context) {
+    require_pointer(out, "out");
+    *out = context.options.*require_real(option).real;
+  });
+}
+
+tetlod_status tetlod_get_int(const tetlod_context *handle, int32_t option, int64_t *out) {
+  return entry(handle, [&](const tetlod_context &context) {
+    require_pointer(out, "out");
+    *out = context.options.*require_integer(option).integer;
+  });
+}
+
+tetlod_status tetlod_set_rho(tetlod_context *context, double rho) {
+  return tetlod_set_real(context, TETLOD_OPT_RHO, rho);
+}
+
+tetlod_status tetlod_set_sigma(tetlod_context *context, double sigma) {
+  return tetlod_set_real(context, TETLOD_OPT_SIGMA, sigma);
+}
+
+tetlod_status tetlod_set_lambda(tetlod_context *context, double lambda) {
+  return tetlod_set_real(context, TETLOD_OPT_LAMBDA, lambda);
+}
+
+tetlod_status tetlod_set_min_distance(tetlod_context *context, double fraction) {
+  return tetlod_set_real(context, TETLOD_OPT_MIN_DISTANCE, fraction);
+}
+
+tetlod_status tetlod_set_preset(tetlod_context *handle, int32_t preset) {
+  return entry(handle, [&](tetlod_context &context) {
+    if (preset != TETLOD_PRESET_PAPER) fail(Status::option, "there is no preset %d", preset);
+    set_as_published(context.options);
+  });
+}
+
+tetlod_status tetlod_option_bounds(int32_t option, tetlod_bounds *out) {
+  return entry([&] {
+    require_struct(out, "out", TETLOD_SIZE_TO(tetlod_bounds, preset));
+    copy_struct(bounds_of(require_option(option)), out);
+  });
+}
+
+int32_t tetlod_option_from_name(const char *name) {
+  if (!name) return 0;
+  for (const Option &option : option_table)
+    if (std::strcmp(option.name, name) == 0) return option.number;
+  return 0;
+}
+
+const char *tetlod_option_name(int32_t option) {
+  const Option *const found = find(option);
+  return found ? found->name : nullptr;
+}

@@ -1,0 +1,189 @@
+// Running, and what is asked about a run while its input is still there.
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cinttypes>
+#include <thread>
+
+#include "arguments.hpp"
+#include "context.hpp"
+#include "measure_error.hpp"
+
+namespace tetlod::capi {
+
+namespace {
+
+void require_submitted(const StridedArray &array, const char *name) {
+  if (!array.present) fail(Status::state, "no %s are submitted", name);
+}
+
+void require_submitted(const Input &input) {
+  require_submitted(input.xyz[0], "points");
+  require_submitted(input.tets, "tets");
+  require_submitted(input.scalars, "scalars");
+}
+
+void require_a_value_a_point(const tetlod_context &context) {
+  const std::int64_t points = context.input.xyz[0].tuples, values = context.input.scalars.tuples;
+  if (values == points) return;
+  const bool named = !context.scalars_name.empty();
+  fail(Status::argument, "scalars%s%.100s: %" PRId64 " values for %" PRId64 " points", named ? " " : "",
+       context.scalars_name.c_str(), values, points);
+}
+
+bool same(const StridedArray &a, const StridedArray &b) {
+  return a.present == b.present && a.type == b.type && a.tuples == b.tuples && a.components == b.components &&
+         a.tuple_stride == b.tuple_stride && a.component_stride == b.component_stride && a.data == b.data;
+}
+
+bool same(const Input &a, const Input &b) {
+  return same(a.xyz[0], b.xyz[0]) && same(a.xyz[1], b.xyz[1]) && same(a.xyz[2], b.xyz[2]) && same(a.tets, b.tets) &&
+         a.index_base == b.index_base && same(a.scalars, b.scalars);
+}
+
+/// A result compared with another input gives numbers that mean nothing, and nobody would notice.
+void require_input_of(const Outcome &outcome, const Input &input) {
+  require_submitted(input);
+  if (!same(outcome.input, input)) fail(Status::state, "the arrays of the last run are not submitted any more");
+}
+
+/// Not more than oneTBB would give: it prints a warning when it is asked for more.
+int threads_of(const Options &options) {
+  const std::size_t wanted = options.threads ? std::size_t(options.threads) : std::thread::hardware_concurrency();
+  if (wanted <= 1) return 1;
+  return int(std::min(wanted, tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)));
+}
+
+void renew_arena(tetlod_context &context) {
+  const int threads = threads_of(context.options);
+  if (context.parallel.threads() != threads) context.parallel = Parallel(threads);
+}
+
+/// The run that begins here is the one that tetlod_cancel means.
+void begin(tetlod_context &context) {
+  context.cancel.store(false, std::memory_order_relaxed);
+  context.callback_failure.set("");
+  context.memory.reset_peak();
+  renew_arena(context);
+}
+
+bool host_cancels(tetlod_context &context, Stage stage, double fraction) {
+  std::int32_t answer = 0;
+  const bool returned = call_host(*context.host, context.callback_failure, "progress", [&] {
+    answer = context.progress.call(context.progress.user, std::int32_t(stage), fraction);
+  });
+  return !returned || answer != 0;
+}
+
+/// A log callback that throws cannot be thrown through (it may be told things while others clean up): the run ends at
+/// its next poll.
+void log_to_host(tetlod_context &context, int level, const char *message) {
+  if (level < context.log.least || context.caller.load() != &thread_message()) return;
+  const bool returned = call_host(*context.host, context.callback_failure, "log",
+                                  [&] { context.log.call(context.log.user, level, message); });
+  if (!returned) context.cancel.store(true, std::memory_order_relaxed);
+}
+
+void connect_log(Job &job, tetlod_context &context) {
+  job.cancel = &context.cancel;
+  if (context.log.call) job.log = [&context](int level, const char *message) { log_to_host(context, level, message); };
+}
+
+void connect_progress(Job &job, tetlod_context &context) {
+  job.time_limit = context.options.time_limit;
+  if (context.progress.call)
+    job.progress = [&context](Stage stage, double fraction) { return host_cancels(context, stage, fraction); };
+}
+
+std::unique_ptr<Outcome> fresh_outcome(tetlod_context &context) {
+  auto outcome = std::make_unique<Outcome>(context.memory);
+  outcome->input = context.input;
+  outcome->threads = context.parallel.threads();
+  return outcome;
+}
+
+void require_samples(std::int32_t samples_per_tet) {
+  if (samples_per_tet < 0 || samples_per_tet > 100)
+    fail(Status::argument, "samples_per_tet %d is not in [0, 100]", samples_per_tet);
+}
+
+tetlod_error_report report_of(const FieldError &error, std::int32_t samples_per_tet) {
+  tetlod_error_report report{};
+  report.samples_per_tet = samples_per_tet;
+  report.rms = error.rms;
+  report.max = error.max;
+  report.outside = error.outside;
+  report.rms_inner = error.rms_inner;
+  report.max_inner = error.max_inner;
+  report.outside_inner = error.outside_inner;
+  return report;
+}
+
+void require_bins(std::int32_t side, std::int32_t bins) {
+  if (side != 0 && side != 1) fail(Status::argument, "side %d is neither 0 (original) nor 1 (result)", side);
+  if (bins < 1 || bins > 1 << 20) fail(Status::argument, "%d bins are not in [1, %d]", bins, 1 << 20);
+}
+
+/// In pieces, so that no memory is needed.
+void count_values(const StridedArray &values, double low, double high, Span<std::int64_t> counts) {
+  double piece[512];
+  const std::int64_t most = std::int64_t(std::size(piece));
+  for (std::int64_t first = 0; first < values.tuples; first += most) {
+    const std::int64_t count = std::min(most, values.tuples - first);
+    for (std::int64_t i = 0; i < count; i++) piece[i] = values.real(first + i, 0);
+    histogram({piece, std::size_t(count)}, low, high, counts);
+  }
+}
+
+}  // namespace
+
+}  // namespace tetlod::capi
+
+using namespace tetlod;
+using namespace tetlod::capi;
+
+tetlod_status tetlod_run(tetlod_context *handle) {
+  return entry(handle, [](tetlod_context &context) {
+    begin(context);
+    require_submitted(context.input);
+    require_a_value_a_point(context);
+    Job job(context.memory, context.parallel);
+    connect_log(job, context);
+    connect_progress(job, context);
+    auto outcome = fresh_outcome(context);
+    run(context.input, context.options, context.worker, job, outcome->result);
+    job.poll(1);  // who cancels before the end gets what was asked for
+    outcome->result.report.peak_bytes = context.memory.peak();
+    context.outcome = std::move(outcome);
+  });
+}
+
+tetlod_status tetlod_measure_error(tetlod_context *handle, int32_t samples_per_tet, tetlod_error_report *out) {
+  return entry(handle, [&](tetlod_context &context) {
+    begin(context);
+    require_struct(out, "out", TETLOD_SIZE_TO(tetlod_error_report, outside_inner));
+    require_samples(samples_per_tet);
+    const Outcome &outcome = last_outcome(context);
+    require_input_of(outcome, context.input);
+    Job job(context.memory, context.parallel);
+    connect_log(job, context);
+    const FieldError error = measure_error(context.input, context.options, outcome.result.mesh, samples_per_tet, job);
+    copy_struct(report_of(error, samples_per_tet), out);
+  });
+}
+
+tetlod_status tetlod_histogram(const tetlod_context *handle, int32_t side, int32_t bins, int64_t *counts) {
+  return entry(handle, [&](const tetlod_context &context) {
+    require_bins(side, bins);
+    require_pointer(counts, "counts");
+    const Outcome &outcome = last_outcome(context);
+    if (side == 0) require_input_of(outcome, context.input);
+    const Report &report = outcome.result.report;
+    const Span<std::int64_t> room(counts, std::size_t(bins));
+    std::fill(room.begin(), room.end(), 0);
+    if (side == 0)
+      count_values(context.input.scalars, report.scalar_min, report.scalar_max, room);
+    else
+      histogram(outcome.result.mesh.scalars, report.scalar_min, report.scalar_max, room);
+  });
+}

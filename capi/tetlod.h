@@ -1,0 +1,327 @@
+/* tetlod: simplification of tetrahedral meshes that carry a scalar field, by point sampling.
+ *
+ * The only header of the library. C99 and C++; MIT licence.
+ *
+ * The method is "Simplification of Unstructured Tetrahedral Meshes by Point Sampling" (Uesu, Bavoil, Fleishman,
+ * Shepherd, Silva 2005); section numbers in brackets below are that paper's.
+ *
+ *     tetlod_context *lod = NULL;
+ *     tetlod_create(NULL, &lod);
+ *     tetlod_set_rho(lod, 0.01);
+ *     tetlod_set_sigma(lod, 0.1);
+ *     tetlod_submit_points(lod, &points);              // borrowed, not copied
+ *     tetlod_submit_tets(lod, &tets, 0);
+ *     tetlod_submit_scalars(lod, "density", &values);
+ *     if (tetlod_run(lod) == TETLOD_OK) { ... tetlod_fetch_points(lod, &small); ... }
+ *     tetlod_destroy(lod);
+ *
+ * Rules that hold for every function
+ *
+ *   Statuses   Functions that can fail return a tetlod_status. A call that fails leaves every output argument and the
+ *              previous result as they were; tetlod_last_message() says what was wrong, with the index and the value.
+ *              Beside the statuses that a function lists, any of them can return TETLOD_ERR_ARGUMENT (a null or
+ *              misaligned pointer, a context that is not one), TETLOD_ERR_MEMORY, and TETLOD_ERR_INTERNAL (a defect of
+ *              the library: please report the message).
+ *   Threads    A context is used by one thread at a time; different contexts by different threads at the same time.
+ *              tetlod_cancel() alone may be called from another thread. Callbacks are called on the thread that called
+ *              the library, and must not call it with the same context (but for tetlod_cancel).
+ *   Memory     Submitted arrays are borrowed: they are read during tetlod_run() and tetlod_measure_error(), never
+ *              written, and must live, unchanged in place and shape, until the same slot is submitted again,
+ *              tetlod_clear(), or tetlod_destroy(). Only the bytes that an array describes are read or written.
+ *   Host       The library never prints, exits, aborts, installs signal handlers, or touches rand(), the locale, the
+ *              floating-point state or the environment, and no C++ exception leaves it. TetGen runs in a process of
+ *              its own, tetlod-remesh; whatever happens to it is a status here.
+ *   Results    The same input, options and seed give the same bytes, whatever the number of threads.
+ */
+#ifndef TETLOD_H
+#define TETLOD_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#define TETLOD_VERSION_MAJOR 0
+#define TETLOD_VERSION_MINOR 1
+#define TETLOD_VERSION_PATCH 0
+/* What tetlod_config.api_version is compared with: major * 10000 + minor * 100 + patch of this header. */
+#define TETLOD_API_VERSION (TETLOD_VERSION_MAJOR * 10000 + TETLOD_VERSION_MINOR * 100 + TETLOD_VERSION_PATCH)
+
+#if defined(__GNUC__)
+#define TETLOD_API __attribute__((visibility("default")))
+#else
+#define TETLOD_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Types ------------------------------------------------------------------------------------------------------ */
+
+/* Options, borrowed input, last result. Opaque; make it with tetlod_create. */
+typedef struct tetlod_context tetlod_context;
+
+typedef int32_t tetlod_status;
+enum {
+  TETLOD_OK = 0,
+  TETLOD_ERR_INTERNAL = 1, /* a defect of the library */
+  /* the call */
+  TETLOD_ERR_ARGUMENT = 10,    /* null or misaligned pointer, type, shape or stride that makes no sense */
+  TETLOD_ERR_OPTION = 11,      /* unknown option, or value out of its bounds */
+  TETLOD_ERR_STATE = 12,       /* called in the wrong order: nothing submitted, nothing run, inside a callback */
+  TETLOD_ERR_STRUCT_SIZE = 13, /* struct_size not set, or api_version of another major version */
+  TETLOD_ERR_BUFFER_SIZE = 14, /* the destination has room for fewer tuples than the result has */
+  /* resources */
+  TETLOD_ERR_MEMORY = 20,       /* the allocator had no more */
+  TETLOD_ERR_MEMORY_LIMIT = 21, /* tetlod_config.memory_limit would be passed */
+  TETLOD_ERR_CANCELLED = 22,    /* by tetlod_cancel or the progress callback */
+  TETLOD_ERR_TIME_LIMIT = 23,   /* TETLOD_OPT_TIME_LIMIT is used up */
+  /* the mesh */
+  TETLOD_ERR_MESH_EMPTY = 30,        /* no points, no tets, or none left after repair */
+  TETLOD_ERR_MESH_INDEX = 31,        /* a tet names a vertex that the mesh does not have */
+  TETLOD_ERR_MESH_NONFINITE = 32,    /* NaN or infinity in a coordinate or value */
+  TETLOD_ERR_MESH_DEGENERATE = 33,   /* no volume, or an extent of zero */
+  TETLOD_ERR_MESH_NONMANIFOLD = 34,  /* a face with more than two tets */
+  TETLOD_ERR_MESH_INTERSECTING = 35, /* the boundary crosses itself, or tets overlap */
+  TETLOD_ERR_MESH_PARTITION = 36,    /* reserved for partitioned meshes */
+  TETLOD_ERR_MESH_TOO_LARGE = 37,    /* 2^29 points or tets, or more */
+  /* the remesher */
+  TETLOD_ERR_REMESH = 40,         /* TetGen failed on this boundary in every way that was tried */
+  TETLOD_ERR_BACKEND_MISSING = 41 /* tetlod-remesh not found, not executable, or of another version */
+};
+
+/* Element types of arrays. */
+enum { TETLOD_INT32 = 1, TETLOD_INT64 = 2, TETLOD_FLOAT32 = 3, TETLOD_FLOAT64 = 4, TETLOD_UINT8 = 5 };
+
+/* An array of the caller: `tuples` tuples of `components` elements of `type`. Component c of tuple i is at
+ *     (char *)data + i * tuple_stride + c * component_stride
+ * so that interleaved (x y z x y z), separate (x x y y z z) and Fortran arrays, and sections of larger arrays, are used
+ * in place. Strides are in bytes, may be negative, and are multiples of the element's alignment; 0 means packed:
+ * component_stride the element's size, tuple_stride components times that. */
+typedef struct tetlod_array {
+  uint32_t struct_size; /* sizeof(tetlod_array) */
+  int32_t type;         /* TETLOD_INT32, ... */
+  int64_t tuples;
+  int32_t components;
+  int32_t reserved; /* 0 */
+  int64_t tuple_stride, component_stride;
+  void *data;
+} tetlod_array;
+
+/* How a context is made. Zero everything, set struct_size and api_version, then what you need. */
+typedef struct tetlod_config {
+  uint32_t struct_size; /* sizeof(tetlod_config) */
+  uint32_t api_version; /* TETLOD_API_VERSION */
+  /* Allocator: both or neither. `allocate` returns memory of that alignment (a power of two) or NULL, `release` gets
+   * what allocate got. They may be called from several threads at once when TETLOD_OPT_THREADS is above 1. The
+   * context itself, messages, OpenMesh's surface and oneTBB's tasks come from operator new; OpenMesh's share is
+   * counted. */
+  void *(*allocate)(void *user, size_t bytes, size_t alignment);
+  void (*release)(void *user, void *pointer, size_t bytes, size_t alignment);
+  void *allocator_user;
+  uint64_t memory_limit; /* bytes that tetlod may have in use at once in the host, and, apart from that, bytes of address
+                            space of tetlod-remesh; 0: no limit */
+  const char *remesher;  /* path of tetlod-remesh; NULL: the environment's TETLOD_REMESHER (not for setuid programs), else
+                            beside the library, else libexec/tetlod. Copied. */
+} tetlod_config;
+
+/* What the last successful tetlod_run did: the rows of the paper's Table 2 [4]. Seconds are wall-clock. */
+typedef struct tetlod_run_report {
+  uint32_t struct_size; /* set by the caller; at most this many bytes are written */
+  int32_t threads;
+  /* the original */
+  int64_t points_in, tets_in;
+  int64_t merged_points;  /* coincident points that became one */
+  int64_t dropped_tets;   /* tets without volume: a repeated vertex (as submitted or after merging) */
+  int64_t unused_points;  /* points that no tet uses */
+  int64_t interior_points_in;
+  int64_t boundary_points_in, boundary_edges_in, boundary_triangles_in;
+  int64_t components; /* of the boundary surface: solids and cavities */
+  int64_t nonmanifold_edges, nonmanifold_points;
+  /* the result */
+  int64_t cleaned_edges; /* degenerate boundary edges removed before decimation (TETLOD_OPT_CLEAN_EDGES) */
+  int64_t boundary_points_out, boundary_edges_out, boundary_triangles_out;
+  int64_t selected_samples;                  /* leaves of the sampling tree [3.1] */
+  int64_t samples_outside, samples_too_near; /* removed [3.3] */
+  int64_t samples;                           /* what is left */
+  int64_t steiner_points;                    /* added by the remeshing [3.4] */
+  int64_t points_out, tets_out;
+  int64_t remesh_attempts; /* 1: TetGen succeeded at once */
+  double seconds_prepare, seconds_boundary, seconds_decimate, seconds_sample, seconds_cull, seconds_remesh,
+      seconds_values, seconds_total;
+  uint64_t peak_bytes;        /* of tetlod in the host, the result included, the caller's arrays not */
+  uint64_t worker_peak_bytes; /* of tetlod-remesh */
+  uint64_t hash;              /* of the result's bytes */
+  double scalar_min, scalar_max; /* of the original's values */
+} tetlod_run_report;
+
+/* The field error of the last result, as the paper estimates it [4]. Errors are |result - original|, relative to the
+ * range of the original's values (absolute where that is zero). */
+typedef struct tetlod_error_report {
+  uint32_t struct_size; /* set by the caller; at most this many bytes are written */
+  int32_t samples_per_tet;
+  double rms, max;             /* at the original vertices that lie inside the result */
+  double outside;              /* share of the original vertices that lie outside the result, ignored above */
+  double rms_inner, max_inner; /* at samples inside the original tets */
+  double outside_inner;        /* share of those samples that lie outside the result */
+} tetlod_error_report;
+
+/* Smallest, largest and default value of an option. */
+typedef struct tetlod_bounds {
+  uint32_t struct_size; /* set by the caller */
+  int32_t is_integer;   /* 1: tetlod_set_int, 0: tetlod_set_real */
+  double least, most, preset;
+} tetlod_bounds;
+
+/* ---- Version and texts: no context, any thread, cannot fail --------------------------------------------------- */
+
+/* The library's version; each pointer may be NULL. */
+TETLOD_API void tetlod_version(int32_t *major, int32_t *minor, int32_t *patch);
+/* One line: version, libraries, licences. Static. */
+TETLOD_API const char *tetlod_build_info(void);
+/* A sentence for a status, never NULL. Static. */
+TETLOD_API const char *tetlod_status_text(tetlod_status status);
+/* "boundary", "decimate", ... for the stages that the progress callback names, never NULL. Static. */
+TETLOD_API const char *tetlod_stage_name(int32_t stage);
+
+/* ---- Contexts ---------------------------------------------------------------------------------------------------- */
+
+/* Makes a context; config may be NULL. *out is written on success alone.
+ * TETLOD_ERR_STRUCT_SIZE. */
+TETLOD_API tetlod_status tetlod_create(const tetlod_config *config, tetlod_context **out);
+/* Ends a context, its result and its worker process. NULL is allowed. */
+TETLOD_API void tetlod_destroy(tetlod_context *context);
+
+/* Copies the message of the last call that failed on this context (of this thread, for a NULL context: tetlod_create)
+ * into buffer, cut to capacity with its terminating zero, and returns the length of the whole message without the zero.
+ * buffer may be NULL when capacity is 0. */
+TETLOD_API size_t tetlod_last_message(const tetlod_context *context, char *buffer, size_t capacity);
+
+/* level: 0 debug, 1 info, 2 warning. The message lives during the call. */
+typedef void (*tetlod_log_fn)(void *user, int32_t level, const char *message);
+/* fn NULL: no log (the default). Messages below min_level are not passed. */
+TETLOD_API tetlod_status tetlod_set_log(tetlod_context *context, tetlod_log_fn fn, void *user, int32_t min_level);
+
+/* stage: see tetlod_stage_name; fraction of that stage in [0, 1]. Non-zero cancels the run. */
+typedef int32_t (*tetlod_progress_fn)(void *user, int32_t stage, double fraction);
+/* fn NULL: none (the default). Called every 5 to 50 ms during tetlod_run. */
+TETLOD_API tetlod_status tetlod_set_progress(tetlod_context *context, tetlod_progress_fn fn, void *user);
+/* Makes the run that is under way in another thread end with TETLOD_ERR_CANCELLED, within some 50 ms. Without one under
+ * way it does nothing. */
+TETLOD_API void tetlod_cancel(tetlod_context *context);
+
+/* ---- Options ----------------------------------------------------------------------------------------------------- */
+
+/* rho [3.1]: largest variation of the values in a leaf of the sampling tree, as a fraction of the values' range.
+ * TETLOD_ERR_OPTION out of bounds, as for every option; the value is then unchanged. */
+TETLOD_API tetlod_status tetlod_set_rho(tetlod_context *context, double rho);
+/* sigma [3.2]: boundary edges kept, as a fraction of the original boundary's edges. */
+TETLOD_API tetlod_status tetlod_set_sigma(tetlod_context *context, double sigma);
+/* lambda [3.2]: shape optimization weight; the paper uses 0.1. Larger: better triangles, larger distance. */
+TETLOD_API tetlod_status tetlod_set_lambda(tetlod_context *context, double lambda);
+/* Least distance of a sample to the boundary [3.3], as a fraction of the diagonal of its bounding box. */
+TETLOD_API tetlod_status tetlod_set_min_distance(tetlod_context *context, double fraction);
+
+enum {
+  TETLOD_PRESET_PAPER = 0 /* as published: lambda 0.1, min-distance 0.01, leaves of 200 triangles and 500 tets */
+};
+/* Sets every option that the preset governs. TETLOD_ERR_OPTION. */
+TETLOD_API tetlod_status tetlod_set_preset(tetlod_context *context, int32_t preset);
+
+/* Options by number; `name` is what tetlod_option_from_name knows it by. Bounds and defaults: tetlod_option_bounds. */
+enum {
+  TETLOD_OPT_RHO = 1,             /* real, "rho" */
+  TETLOD_OPT_SIGMA = 2,           /* real, "sigma" */
+  TETLOD_OPT_LAMBDA = 3,          /* real, "lambda" */
+  TETLOD_OPT_MIN_DISTANCE = 4,    /* real, "min-distance" */
+  TETLOD_OPT_MERGE_TOLERANCE = 5, /* real, "merge-tolerance": points this near, as a fraction of the bounding box
+                                     diagonal, become one; 0: only points with the same coordinates */
+  TETLOD_OPT_CLEAN_EDGES = 6,     /* real, "clean-edges": boundary edges shorter than this fraction of the diagonal are
+                                     collapsed before decimation [4, delta]; 0: off */
+  TETLOD_OPT_BOUNDARY_LEAF = 7,   /* int, "boundary-leaf": triangles in a leaf of the culling tree [3.3], at most */
+  TETLOD_OPT_TET_LEAF = 8,        /* int, "tet-leaf": tets in a leaf of the interpolation tree [3.5], at most */
+  TETLOD_OPT_THREADS = 9,         /* int, "threads": 0 means one a core; never more than oneTBB has in this process */
+  TETLOD_OPT_SEED = 10,           /* int, "seed": of the shuffles of remeshing's retries and of the error's samples */
+  TETLOD_OPT_TIME_LIMIT = 11      /* real, "time-limit": seconds for a tetlod_run; 0: none */
+};
+/* TETLOD_ERR_OPTION: unknown, of the other kind, or out of bounds (NaN is). */
+TETLOD_API tetlod_status tetlod_set_real(tetlod_context *context, int32_t option, double value);
+TETLOD_API tetlod_status tetlod_set_int(tetlod_context *context, int32_t option, int64_t value);
+TETLOD_API tetlod_status tetlod_get_real(const tetlod_context *context, int32_t option, double *out);
+TETLOD_API tetlod_status tetlod_get_int(const tetlod_context *context, int32_t option, int64_t *out);
+/* No context needed. TETLOD_ERR_OPTION, TETLOD_ERR_STRUCT_SIZE. */
+TETLOD_API tetlod_status tetlod_option_bounds(int32_t option, tetlod_bounds *out);
+/* 0 for a name that is no option; NULL for a number that is none. */
+TETLOD_API int32_t tetlod_option_from_name(const char *name);
+TETLOD_API const char *tetlod_option_name(int32_t option);
+
+/* ---- Submitting the original ------------------------------------------------------------------------------------ */
+
+/* Coordinates, 3 components, float32 or float64. TETLOD_ERR_STRUCT_SIZE, TETLOD_ERR_ARGUMENT,
+ * TETLOD_ERR_MESH_TOO_LARGE; so for all that follow. The contents are looked at by tetlod_run. */
+TETLOD_API tetlod_status tetlod_submit_points(tetlod_context *context, const tetlod_array *xyz);
+/* The same from three arrays of one component and equal length. */
+TETLOD_API tetlod_status tetlod_submit_points_xyz(tetlod_context *context, const tetlod_array *x, const tetlod_array *y,
+                                                  const tetlod_array *z);
+/* Vertex numbers, 4 components, int32 or int64; index_base 0 or 1 is the number of the first point. Any winding, also
+ * mixed. */
+TETLOD_API tetlod_status tetlod_submit_tets(tetlod_context *context, const tetlod_array *corners, int32_t index_base);
+/* The field that steers the simplification: a value a point, 1 component, float32 or float64. name is copied and may be
+ * NULL. */
+TETLOD_API tetlod_status tetlod_submit_scalars(tetlod_context *context, const char *name, const tetlod_array *values);
+/* Forgets what was submitted (the arrays may go), keeps options and the last result. */
+TETLOD_API tetlod_status tetlod_clear(tetlod_context *context);
+
+/* ---- Running ----------------------------------------------------------------------------------------------------- */
+
+/* Simplifies: boundary extraction and decimation [3.2], sampling [3.1], culling [3.3], remeshing [3.4], values [3.5].
+ * The result replaces the previous one on success alone.
+ *
+ * TETLOD_ERR_STATE          points, tets or scalars are missing
+ * TETLOD_ERR_ARGUMENT       as many scalars as points are needed
+ * TETLOD_ERR_MESH_*         see the enumeration
+ * TETLOD_ERR_MEMORY_LIMIT, TETLOD_ERR_CANCELLED, TETLOD_ERR_TIME_LIMIT
+ * TETLOD_ERR_REMESH, TETLOD_ERR_BACKEND_MISSING
+ *
+ * Guarantees of a result: every tet has a positive volume, every face is used by one or two tets, the boundary is
+ * closed, does not cross itself and has the components and the Euler characteristic of the original's, every value lies
+ * within the original's range. Boundary vertices come first, then samples (each an original vertex with its value), then
+ * Steiner points. */
+TETLOD_API tetlod_status tetlod_run(tetlod_context *context);
+
+/* Estimates the field error of the last result [4], at the original vertices and at samples_per_tet (0 to 100) random
+ * samples in each original tet. The input of the run must still be submitted.
+ * TETLOD_ERR_STATE, TETLOD_ERR_STRUCT_SIZE, TETLOD_ERR_MEMORY_LIMIT, TETLOD_ERR_CANCELLED. */
+TETLOD_API tetlod_status tetlod_measure_error(tetlod_context *context, int32_t samples_per_tet, tetlod_error_report *out);
+/* How many original (side 0) or result (side 1) vertices have a value in each of `bins` equal parts of the original's
+ * range [4, Figure 5]; counts has room for bins (1 to 1 << 20) numbers. TETLOD_ERR_STATE. */
+TETLOD_API tetlod_status tetlod_histogram(const tetlod_context *context, int32_t side, int32_t bins, int64_t *counts);
+
+/* ---- Fetching the result ---------------------------------------------------------------------------------------- */
+
+/* Sizes of the last result; each pointer may be NULL. TETLOD_ERR_STATE before the first successful run, as for all that
+ * follow. */
+TETLOD_API tetlod_status tetlod_fetch_counts(const tetlod_context *context, int64_t *points, int64_t *tets,
+                                             int64_t *boundary_triangles);
+/* These copy into the caller's memory. dst says type, strides and room (tuples at least the result's count, otherwise
+ * TETLOD_ERR_BUFFER_SIZE); tuples beyond the result's count are left alone, dst itself is not changed.
+ * float32 rounds to nearest; integers are TETLOD_INT32 or TETLOD_INT64. */
+TETLOD_API tetlod_status tetlod_fetch_points(const tetlod_context *context, tetlod_array *dst);
+/* 4 components; det(p1 - p0, p2 - p0, p3 - p0) > 0 (in double precision). */
+TETLOD_API tetlod_status tetlod_fetch_tets(const tetlod_context *context, int32_t index_base, tetlod_array *dst);
+/* 3 components, counter-clockwise seen from outside. */
+TETLOD_API tetlod_status tetlod_fetch_boundary(const tetlod_context *context, int32_t index_base, tetlod_array *dst);
+TETLOD_API tetlod_status tetlod_fetch_scalars(const tetlod_context *context, tetlod_array *dst);
+/* TETLOD_ERR_STRUCT_SIZE. */
+TETLOD_API tetlod_status tetlod_fetch_report(const tetlod_context *context, tetlod_run_report *out);
+
+/* The library's own arrays, without a copy: *out is filled, packed, and valid until the next successful tetlod_run or
+ * tetlod_destroy. Read only. Set out->struct_size first. */
+TETLOD_API tetlod_status tetlod_view_points(const tetlod_context *context, tetlod_array *out);  /* FLOAT64 x 3 */
+TETLOD_API tetlod_status tetlod_view_tets(const tetlod_context *context, tetlod_array *out);    /* INT32 x 4, base 0 */
+TETLOD_API tetlod_status tetlod_view_scalars(const tetlod_context *context, tetlod_array *out); /* FLOAT64 x 1 */
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,30 @@
+# What an installed tetlod consists of: the library, its header, a CMake package and a pkg-config file. Every path in
+# them is relative, so that the installed tree can be moved. The worker and the tool install themselves.
+include(CMakePackageConfigHelpers)
+
+set(TETLOD_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/tetlod)
+set(TETLOD_PKGCONFIG_DIR ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+
+install(TARGETS tetlod EXPORT tetlodTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(FILES ${PROJECT_SOURCE_DIR}/capi/tetlod.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(EXPORT tetlodTargets NAMESPACE tetlod:: DESTINATION ${TETLOD_CMAKE_DIR})
+
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/tetlodConfig.cmake.in
+  ${PROJECT_BINARY_DIR}/cmake/tetlodConfig.cmake
+  INSTALL_DESTINATION ${TETLOD_CMAKE_DIR}
+  NO_SET_AND_CHECK_MACRO)
+# Functions are only added within a major version, so a newer minor one serves too.
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/cmake/tetlodConfigVersion.cmake
+  VERSION ${PROJECT_VERSION} COMPATIBILITY SameMajorVersion)
+install(FILES
+  ${PROJECT_BINARY_DIR}/cmake/tetlodConfig.cmake
+  ${PROJECT_BINARY_DIR}/cmake/tetlodConfigVersion.cmake
+  DESTINATION ${TETLOD_CMAKE_DIR})
+
+# pkg-config knows the folder of the .pc file; the others are told from there.
+file(RELATIVE_PATH TETLOD_PC_TO_PREFIX
+  ${CMAKE_INSTALL_PREFIX}/${TETLOD_PKGCONFIG_DIR} ${CMAKE_INSTALL_PREFIX})
+string(REGEX REPLACE "/$" "" TETLOD_PC_TO_PREFIX "${TETLOD_PC_TO_PREFIX}")
+configure_file(${CMAKE_CURRENT_LIST_DIR}/tetlod.pc.in ${PROJECT_BINARY_DIR}/cmake/tetlod.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/cmake/tetlod.pc DESTINATION ${TETLOD_PKGCONFIG_DIR})

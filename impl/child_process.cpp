@@ -1,0 +1,216 @@
+#include "child_process.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/socket.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "remesh_protocol.hpp"
+#include "status.hpp"
+
+namespace tetlod {
+
+namespace {
+
+constexpr int wait_by_pidfd = 3;  // P_PIDFD, which older headers lack
+
+std::string error_text(int error) {
+  const char *description = ::strerrordesc_np(error);  // strerror is neither thread-safe nor free of the locale
+  return description ? description : text("error %d", error);
+}
+
+[[noreturn]] void fail_for_want_of(const char *what, int error) {
+  fail(Status::memory, "cannot make %s for the remeshing process: %s", what, error_text(error).c_str());
+}
+
+/// A copy above the numbers that the child's will have, so that no dup2 overwrites the source of another (the host
+/// may have closed 0, 1 and 2, and then gets these first).
+Descriptor lifted(const Descriptor &low, const char *what) {
+  if (low.number() < 0) fail_for_want_of(what, errno);
+  const int high = ::fcntl(low.number(), F_DUPFD_CLOEXEC, 2 * protocol::first_free_descriptor);
+  if (high < 0) fail_for_want_of(what, errno);
+  return Descriptor(high);
+}
+
+struct Pair {
+  Descriptor host, child;
+};
+
+Pair lifted_pair(const int (&ends)[2], const char *what) {
+  const Descriptor first(ends[0]), second(ends[1]);
+  return {lifted(first, what), lifted(second, what)};
+}
+
+Pair socket_pair() {
+  int ends[2];
+  if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) fail_for_want_of("a socket", errno);
+  return lifted_pair(ends, "a socket");
+}
+
+Pair output_pipe() {
+  int ends[2];
+  if (::pipe2(ends, O_CLOEXEC) != 0) fail_for_want_of("a pipe", errno);
+  Pair pair = lifted_pair(ends, "a pipe");
+  ::fcntl(pair.host.number(), F_SETFL, O_NONBLOCK);
+  return pair;
+}
+
+/// What posix_spawn does in the child before it executes the program.
+class FileActions {
+ public:
+  FileActions() { check(::posix_spawn_file_actions_init(&actions_)); }
+  ~FileActions() { ::posix_spawn_file_actions_destroy(&actions_); }
+  FileActions(const FileActions &) = delete;
+  FileActions &operator=(const FileActions &) = delete;
+  void give(const Descriptor &source, int number) {
+    check(::posix_spawn_file_actions_adddup2(&actions_, source.number(), number));
+  }
+  void open_nothing(int number) {
+    check(::posix_spawn_file_actions_addopen(&actions_, number, "/dev/null", O_RDONLY, 0));
+  }
+  void close_from(int number) { check(::posix_spawn_file_actions_addclosefrom_np(&actions_, number)); }
+  const posix_spawn_file_actions_t *get() const { return &actions_; }
+
+ private:
+  static void check(int error) {
+    if (error) fail_for_want_of("a list of descriptors", error);
+  }
+  posix_spawn_file_actions_t actions_;
+};
+
+/// The child starts without the host's blocked and ignored signals.
+class FreshSignals {
+ public:
+  FreshSignals() {
+    ::posix_spawnattr_init(&attributes_);
+    sigset_t none, all;
+    sigemptyset(&none);
+    sigfillset(&all);
+    ::posix_spawnattr_setsigmask(&attributes_, &none);
+    ::posix_spawnattr_setsigdefault(&attributes_, &all);
+    ::posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+  }
+  ~FreshSignals() { ::posix_spawnattr_destroy(&attributes_); }
+  FreshSignals(const FreshSignals &) = delete;
+  FreshSignals &operator=(const FreshSignals &) = delete;
+  const posix_spawnattr_t *get() const { return &attributes_; }
+
+ private:
+  posix_spawnattr_t attributes_;
+};
+
+bool is_shortage(int error) {
+  return error == EAGAIN || error == ENOMEM || error == EMFILE || error == ENFILE || error == ENOSPC;
+}
+
+/// posix_spawn reports a missing program and a missing /dev/null alike; this one names the program.
+void check_executable(const std::string &path) {
+  if (::access(path.c_str(), X_OK) == 0) return;
+  const int error = errno;
+  fail(Status::backend_missing, "cannot execute %s: %s", path.c_str(), error_text(error).c_str());
+}
+
+pid_t spawn(const std::string &path, const FileActions &actions) {
+  const FreshSignals signals;
+  char *arguments[] = {const_cast<char *>(path.c_str()), nullptr};
+  pid_t pid = -1;
+  const int error = ::posix_spawn(&pid, path.c_str(), actions.get(), signals.get(), arguments, environ);
+  if (is_shortage(error)) fail_for_want_of("room", error);
+  if (error) fail(Status::backend_missing, "cannot start %s: %s", path.c_str(), error_text(error).c_str());
+  return pid;
+}
+
+}  // namespace
+
+Descriptor &Descriptor::operator=(Descriptor &&other) noexcept {
+  if (this != &other) {
+    close();
+    number_ = other.number_;
+    other.number_ = -1;
+  }
+  return *this;
+}
+
+void Descriptor::close() noexcept {
+  if (number_ >= 0) ::close(number_);
+  number_ = -1;
+}
+
+Descriptor shared_file(const char *name) {
+  const Descriptor low(::memfd_create(name, MFD_CLOEXEC));
+  return lifted(low, "shared memory");
+}
+
+std::string Ending::text() const {
+  if (!known) return "an ending that the host has collected";
+  if (!by_signal) return tetlod::text("exit status %d", status);
+  const char *name = ::sigabbrev_np(status);
+  return tetlod::text("signal %d (%s)", status, name ? name : "unknown");
+}
+
+ChildProcess::ChildProcess(const std::string &path, const Descriptor &request, const Descriptor &response)
+    : owner_(::getpid()) {
+  check_executable(path);
+  start(path, request, response);
+}
+
+void ChildProcess::start(const std::string &path, const Descriptor &request, const Descriptor &response) {
+  Pair control = socket_pair();
+  Pair output = output_pipe();
+  FileActions actions;
+  actions.open_nothing(0);
+  actions.give(output.child, 1);
+  actions.give(output.child, 2);
+  actions.give(control.child, protocol::control_descriptor);
+  actions.give(request, protocol::request_descriptor);
+  actions.give(response, protocol::response_descriptor);
+  actions.close_from(protocol::first_free_descriptor);
+  const pid_t pid = spawn(path, actions);
+
+  control_ = std::move(control.host);
+  output_ = std::move(output.host);
+  // A host that ignores SIGCHLD, or waits for any child, may have reaped it by now; then there is nothing to hold.
+  handle_ = Descriptor(int(::syscall(SYS_pidfd_open, pid, 0)));
+  if (handle_.number() >= 0) return;
+  const int error = errno;
+  if (error == ESRCH) return;
+  ::kill(pid, SIGKILL);
+  while (::waitpid(pid, nullptr, 0) < 0 && errno == EINTR) {
+  }
+  fail_for_want_of("a process handle", error);
+}
+
+ChildProcess::~ChildProcess() {
+  if (is_ours()) end();
+}
+
+bool ChildProcess::is_ours() const noexcept { return owner_ == ::getpid(); }
+
+bool ChildProcess::has_ended() const noexcept {
+  if (handle_.number() < 0) return true;
+  pollfd ended = {handle_.number(), POLLIN, 0};
+  return ::poll(&ended, 1, 0) == 1;
+}
+
+// Signals and waits go through the pidfd: the number of a process that the host has reaped may be another's already.
+Ending ChildProcess::end() noexcept {
+  siginfo_t information = {};
+  if (handle_.number() >= 0) {
+    ::syscall(SYS_pidfd_send_signal, handle_.number(), SIGKILL, nullptr, 0);
+    while (::waitid(idtype_t(wait_by_pidfd), id_t(handle_.number()), &information, WEXITED) < 0 && errno == EINTR) {
+    }
+    handle_.close();
+  }
+  return {information.si_pid != 0, information.si_code != CLD_EXITED, information.si_status};
+}
+
+}  // namespace tetlod

@@ -1,0 +1,66 @@
+// A child process that cannot outlive its owner's interest in it, whatever the host does with signals, forks and
+// descriptors. Linux only: pidfd, memfd, SOCK_SEQPACKET.
+#pragma once
+#include <sys/types.h>
+
+#include <cstdint>
+#include <string>
+
+namespace tetlod {
+
+/// Owns a file descriptor.
+class Descriptor {
+ public:
+  Descriptor() = default;
+  explicit Descriptor(int number) : number_(number) {}
+  ~Descriptor() { close(); }
+  Descriptor(Descriptor &&other) noexcept : number_(other.number_) { other.number_ = -1; }
+  Descriptor &operator=(Descriptor &&other) noexcept;
+  int number() const noexcept { return number_; }
+  void close() noexcept;
+
+ private:
+  int number_ = -1;
+};
+
+/// An anonymous file in memory, close-on-exec. Throws Status::memory.
+Descriptor shared_file(const char *name);
+
+/// How a process ended. `known` is false when the host ignores SIGCHLD or has waited for any child itself.
+struct Ending {
+  bool known, by_signal;
+  int status;
+  std::string text() const;  ///< "exit status 3", "signal 11 (SEGV)"
+};
+
+/// The running executable with its ends of the three channels that remesh_protocol.hpp numbers, and with its
+/// standard output and error in a pipe.
+class ChildProcess {
+ public:
+  /// Throws Status::backend_missing when the path cannot be executed, Status::memory when the system is short of
+  /// processes, descriptors or memory.
+  ChildProcess(const std::string &path, const Descriptor &request, const Descriptor &response);
+  /// Kills and reaps. In a process forked from the one that started it, does nothing.
+  ~ChildProcess();
+  ChildProcess(const ChildProcess &) = delete;
+  ChildProcess &operator=(const ChildProcess &) = delete;
+
+  /// False in a process forked from the one that started it.
+  bool is_ours() const noexcept;
+  bool has_ended() const noexcept;
+  /// Kills it if it still runs, and reaps it.
+  Ending end() noexcept;
+
+  int control() const noexcept { return control_.number(); }  ///< socket, non-blocking
+  int output() const noexcept { return output_.number(); }    ///< pipe, non-blocking; -1 after close_output
+  int handle() const noexcept { return handle_.number(); }    ///< pidfd, readable when it has ended
+  void close_output() noexcept { output_.close(); }
+
+ private:
+  void start(const std::string &path, const Descriptor &request, const Descriptor &response);
+
+  pid_t owner_;
+  Descriptor control_, output_, handle_;
+};
+
+}  // namespace tetlod

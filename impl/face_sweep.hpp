@@ -1,0 +1,115 @@
+// The faces of a tetrahedral mesh, the uses of each side by side: a counting sort by the lowest vertex, in a few chunks
+// of vertices so that memory stays small, then small sorts inside the buckets of the vertices.
+#pragma once
+#include <algorithm>
+#include <cstdint>
+
+#include "job.hpp"
+#include "mesh.hpp"
+
+namespace tetlod {
+
+/// A tet's use of a face, in the bucket of the face's lowest vertex.
+struct FaceUse {
+  std::int32_t middle, high;  ///< the two other vertices
+  std::uint32_t use;          ///< 4 t + k: the face of tet t opposite its corner k
+  std::size_t tet() const { return use / 4; }
+  std::size_t corner() const { return use % 4; }
+};
+
+class FaceSweep {
+ public:
+  /// Tets with excluded[t] != 0 are left out (empty: none).
+  FaceSweep(const MeshView &mesh, Span<const std::uint8_t> excluded, Job &job)
+      : mesh_(mesh), excluded_(excluded), job_(job), begin_(mesh.points.size() + 1, 0, &job.memory) {
+    for_each_face(0,
+                  [&](std::int32_t low, std::int32_t, std::int32_t, std::uint32_t) { begin_[std::size_t(low) + 1]++; });
+    for (std::size_t v = 0; v + 1 < begin_.size(); v++) begin_[v + 1] += begin_[v];
+  }
+
+  std::size_t chunks() const { return std::clamp<std::size_t>(begin_.back() / least_faces, 1, most_chunks); }
+
+  /// visit(chunk, lowest vertex, first, last) for the uses of every face, by vertex, then by the middle and the highest
+  /// vertex. Chunks are visited by different threads at once, each in order.
+  template <class Visit>
+  void visit(const Visit &visit) const {
+    job_.parallel.for_blocks(chunks(), 1, [&](std::size_t chunk, std::size_t) { visit_chunk(chunk, visit); });
+  }
+
+ private:
+  static constexpr std::size_t most_chunks = 4;
+  static constexpr std::size_t least_faces = 1 << 16;
+
+  /// The first vertex of a chunk: each has about as many faces.
+  std::size_t first_vertex(std::size_t chunk) const {
+    const std::size_t faces = std::size_t(std::uint64_t(begin_.back()) * chunk / chunks());
+    if (chunk == chunks()) return begin_.size() - 1;
+    return std::size_t(std::lower_bound(begin_.begin(), begin_.end() - 1, faces) - begin_.begin());
+  }
+
+  template <class Visit>
+  void visit_chunk(std::size_t chunk, const Visit &visit) const {
+    const std::size_t first = first_vertex(chunk), last = first_vertex(chunk + 1);
+    if (first >= last) return;
+    Array<std::uint32_t> place(begin_.begin() + std::ptrdiff_t(first), begin_.begin() + std::ptrdiff_t(last),
+                               &job_.memory);
+    const std::uint32_t base = begin_[first];
+    Array<FaceUse> faces(begin_[last] - base, &job_.memory);
+    for_each_face(double(chunk) / double(chunks()),
+                  [&](std::int32_t low, std::int32_t middle, std::int32_t high, std::uint32_t use) {
+                    const std::size_t v = std::size_t(low) - first;  // wraps below the chunk
+                    if (v < place.size()) faces[place[v]++ - base] = {middle, high, use};
+                  });
+    for (std::size_t v = first; v < last; v++) {
+      visit_bucket(chunk, std::int32_t(v), faces.data() + (begin_[v] - base), faces.data() + (begin_[v + 1] - base),
+                   visit);
+      if (v % 4096 == 0) job_.poll(double(v) / double(begin_.size()));
+    }
+  }
+
+  template <class Visit>
+  static void visit_bucket(std::size_t chunk, std::int32_t low, FaceUse *first, FaceUse *last, const Visit &visit) {
+    std::sort(first, last, [](const FaceUse &a, const FaceUse &b) {
+      return a.middle != b.middle ? a.middle < b.middle : a.high != b.high ? a.high < b.high : a.use < b.use;
+    });
+    while (first != last) {
+      const FaceUse *same = first + 1;
+      while (same != last && same->middle == first->middle && same->high == first->high) same++;
+      visit(chunk, low, static_cast<const FaceUse *>(first), same);
+      first += same - first;
+    }
+  }
+
+  template <class Visit>
+  void for_each_face(double fraction, const Visit &visit) const {
+    for (std::size_t t = 0; t < mesh_.tets.size(); t++) {
+      if (t % (1 << 18) == 0) job_.poll(fraction);
+      if (!excluded_.empty() && excluded_[t]) continue;
+      Tet v = mesh_.tets[t];
+      std::array<std::uint32_t, 4> corner{0, 1, 2, 3};  // sorted once for all four faces
+      const auto order = [&](std::size_t a, std::size_t b) {
+        if (v[a] > v[b]) {
+          std::swap(v[a], v[b]);
+          std::swap(corner[a], corner[b]);
+        }
+      };
+      order(0, 1);
+      order(2, 3);
+      order(0, 2);
+      order(1, 3);
+      order(1, 2);
+      const auto use = std::uint32_t(4 * t);
+      visit(v[0], v[1], v[2], use + corner[3]);
+      visit(v[0], v[1], v[3], use + corner[2]);
+      visit(v[0], v[2], v[3], use + corner[1]);
+      visit(v[1], v[2], v[3], use + corner[0]);
+    }
+  }
+
+  const MeshView &mesh_;
+  Span<const std::uint8_t> excluded_;
+  Job &job_;
+  Array<std::uint32_t> begin_;  // of the bucket of each vertex
+};
+
+}  // namespace tetlod

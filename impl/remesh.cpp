@@ -1,0 +1,219 @@
+#include "remesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <utility>
+
+#include "geometry.hpp"
+#include "kd_tree.hpp"
+#include "remesh_checks.hpp"
+#include "remesh_frame.hpp"
+#include "remesh_result.hpp"
+#include "status.hpp"
+
+namespace tetlod {
+
+namespace {
+
+/// The same for every attempt of a call.
+struct Problem {
+  const Surface &surface;
+  Span<const Vec3> samples;
+  SurfaceFacts facts;
+  Job &job;
+  double progress;  ///< at the begin of the attempt
+};
+
+/// p: the boundary is given. Y: it is kept. A: number the regions. M0/1: do not merge points. T1e-5: what counts as
+/// flat; the default 1e-8 may start from a tet of rounding noise. J: keep unused points, so numbers stay. z: from 0. Q.
+std::string switches(const SurfaceFacts &facts, bool own_tolerance) {
+  return std::string("pY") + (facts.components > 1 ? "A" : "") + "M0/1" + (own_tolerance ? "T1e-5" : "") + "JzQ";
+}
+
+void add_sample(const Problem &problem, std::size_t i, const Frame &frame, Array<Vec3> &points,
+                Array<std::int32_t> &number) {
+  points.push_back(frame.into(problem.samples[i]));
+  number.push_back(std::int32_t(problem.surface.points.size() + i));
+}
+
+/// The boundary alone, in a frame.
+RemeshInput boundary_input(const Problem &problem, const Frame &frame) {
+  RemeshInput input(problem.job.memory);
+  input.frame = frame;
+  input.switches = switches(problem.facts, true);
+  input.triangles.assign(problem.surface.triangles.begin(), problem.surface.triangles.end());
+  input.points.reserve(problem.surface.points.size() + problem.samples.size());
+  input.number.reserve(problem.surface.points.size() + problem.samples.size());
+  for (std::size_t i = 0; i < problem.surface.points.size(); i++) {
+    input.points.push_back(frame.into(problem.surface.points[i]));
+    input.number.push_back(std::int32_t(i));
+  }
+  return input;
+}
+
+RemeshInput framed_input(const Problem &problem, const Frame &frame) {
+  RemeshInput input = boundary_input(problem, frame);
+  for (std::size_t i = 0; i < problem.samples.size(); i++) add_sample(problem, i, frame, input.points, input.number);
+  return input;
+}
+
+RemeshInput plain(const Problem &problem) { return framed_input(problem, uniform_frame(problem.facts.box)); }
+
+RemeshInput facets_reversed(const Problem &problem) {
+  RemeshInput input = plain(problem);
+  std::reverse(input.triangles.begin(), input.triangles.end());
+  return input;
+}
+
+/// Each axis by a power of two of its own: the metric changes in which TetGen calls a tet bad.
+RemeshInput axes_stretched(const Problem &problem) { return framed_input(problem, stretched_frame(problem.facts.box)); }
+
+RemeshInput default_tolerance(const Problem &problem) {
+  RemeshInput input = plain(problem);
+  input.switches = switches(problem.facts, false);
+  return input;
+}
+
+/// A permutation that is the same everywhere: std::shuffle is not.
+Array<std::int32_t> shuffled(std::size_t count, Memory &memory) {
+  Array<std::int32_t> order(count, &memory);
+  for (std::size_t i = 0; i < count; i++) order[i] = std::int32_t(i);
+  std::mt19937_64 random(1);
+  for (std::size_t i = count; i > 1; i--) std::swap(order[i - 1], order[std::size_t(random() % i)]);
+  return order;
+}
+
+RemeshInput vertices_shuffled(const Problem &problem) {
+  const RemeshInput input = plain(problem);
+  RemeshInput mixed = boundary_input(problem, input.frame);
+  const Array<std::int32_t> target = shuffled(input.points.size(), problem.job.memory);
+  mixed.points.resize(input.points.size());
+  mixed.number.resize(input.number.size());
+  for (std::size_t i = 0; i < target.size(); i++) {
+    mixed.points[std::size_t(target[i])] = input.points[i];
+    mixed.number[std::size_t(target[i])] = input.number[i];
+  }
+  for (Triangle &t : mixed.triangles)
+    for (std::int32_t &corner : t) corner = target[std::size_t(corner)];
+  return mixed;
+}
+
+RemeshInput samples_inserted_late(const Problem &problem) {
+  RemeshInput input = boundary_input(problem, uniform_frame(problem.facts.box));
+  for (std::size_t i = 0; i < problem.samples.size(); i++)
+    add_sample(problem, i, input.frame, input.insert, input.insert_number);
+  input.switches += "i";
+  return input;
+}
+
+/// The triangles of the surface, to ask how near a sample is.
+class NearestTriangle {
+ public:
+  explicit NearestTriangle(const Problem &problem) : surface_(problem.surface), tree_(problem.job.memory) {
+    Array<Box> boxes(surface_.triangles.size(), &problem.job.memory);
+    for (std::size_t i = 0; i < boxes.size(); i++)
+      for (int k = 0; k < 3; k++) boxes[i].add(corner(std::int32_t(i), k));
+    tree_.build(std::move(boxes), 8);
+  }
+  /// Nearer than half the longest edge of the nearest triangle.
+  bool crowds(const Vec3 &p) const {
+    double distance2 = std::numeric_limits<double>::infinity();
+    const std::int32_t triangle = tree_.nearest(p, distance2, [&](std::int32_t i) { return distance2_to(p, i); });
+    const Vec3 &a = corner(triangle, 0), &b = corner(triangle, 1), &c = corner(triangle, 2);
+    return 4 * distance2 < std::max({length2(b - a), length2(c - b), length2(a - c)});
+  }
+
+ private:
+  const Vec3 &corner(std::int32_t triangle, int k) const {
+    return surface_.points[std::size_t(surface_.triangles[std::size_t(triangle)][std::size_t(k)])];
+  }
+  double distance2_to(const Vec3 &p, std::int32_t i) const {
+    const Vec3 &a = corner(i, 0), &b = corner(i, 1), &c = corner(i, 2);
+    const Vec3 weights = nearest_in_triangle(p, a, b, c);
+    return length2(weights.x * a + weights.y * b + weights.z * c - p);
+  }
+  const Surface &surface_;
+  KdTree tree_;
+};
+
+RemeshInput without_crowding_samples(const Problem &problem) {
+  RemeshInput input = boundary_input(problem, uniform_frame(problem.facts.box));
+  const NearestTriangle nearest(problem);
+  for (std::size_t i = 0; i < problem.samples.size(); i++) {
+    if (i % 256 == 0) problem.job.poll(problem.progress);
+    if (!nearest.crowds(problem.samples[i])) add_sample(problem, i, input.frame, input.points, input.number);
+  }
+  return input;
+}
+
+RemeshInput without_samples(const Problem &problem) {
+  return boundary_input(problem, uniform_frame(problem.facts.box));
+}
+
+struct Attempt {
+  const char *name;
+  RemeshInput (*input)(const Problem &);
+  bool about_samples;  ///< the same as the first attempt when there are none
+};
+
+/// The ladder. The first two retries rescued 14 of 14 failures of valid surfaces.
+constexpr Attempt attempts[] = {
+    {"plain", plain, false},
+    {"facets reversed", facets_reversed, false},
+    {"axes stretched", axes_stretched, false},
+    {"default tolerance", default_tolerance, false},
+    {"vertices shuffled", vertices_shuffled, false},
+    {"samples inserted late", samples_inserted_late, true},
+    {"without samples near the boundary", without_crowding_samples, true},
+    {"without samples", without_samples, true},
+};
+
+/// Long enough for a machine that is loaded, short enough to end an endless loop.
+double time_share(const RemeshInput &input) {
+  return std::max(10.0, 50 * expected_seconds(input.points.size() + input.insert.size()));
+}
+
+/// Where the progress of the stage is when so many attempts are over: the first usually is the only one.
+double progress_after(int count) { return count ? 1 - 0.1 * std::ldexp(1.0, 1 - count) : 0; }
+
+/// What is wrong with the answer, or an empty text.
+std::string run(const Attempt &attempt, Problem &problem, Worker &worker, RemeshResult &result) {
+  problem.progress = progress_after(result.report.attempts++);
+  const RemeshInput input = attempt.input(problem);
+  TetgenRequest request;
+  request.switches = input.switches.c_str();
+  request.points = input.points;
+  request.insert = input.insert;
+  request.triangles = input.triangles;
+  request.progress_begin = problem.progress;
+  request.progress_end = progress_after(result.report.attempts);
+  TetgenReply reply(problem.job.memory);
+  worker.tetrahedralize(request, time_share(input), problem.job, reply);
+  result.report.worker_peak_bytes = std::max(result.report.worker_peak_bytes, reply.peak_bytes);
+  if (reply.code != 0) return reply.failure;
+  return accept_reply(input, problem.surface, problem.samples, reply, request.progress_end, problem.job, result);
+}
+
+}  // namespace
+
+void remesh(const Surface &surface, Span<const Vec3> samples, Worker &worker, Job &job, RemeshResult &result) {
+  check_samples(samples);
+  Problem problem = {surface, samples, check_surface(surface, job), job, 0};
+  RemeshResult made(job.memory);
+  std::string failures;
+  for (const Attempt &attempt : attempts) {
+    if (attempt.about_samples && samples.empty()) continue;
+    const std::string failure = run(attempt, problem, worker, made);
+    if (failure.empty()) {
+      result = std::move(made);
+      return;
+    }
+    failures += std::string(failures.empty() ? "" : "; ") + attempt.name + ": " + failure;
+    if (job.log) job.log(1, (std::string("remeshing, ") + attempt.name + ": " + failure).c_str());
+  }
+  throw Error(Status::remesh, "the simplified boundary could not be filled with tets (" + failures + ")");
+}
+
+}  // namespace tetlod

@@ -1,0 +1,58 @@
+#include "remesh_frame.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tetlod {
+
+namespace {
+
+Vec3 scaled(const Vec3 &p, int exponent) {
+  return {std::ldexp(p.x, exponent), std::ldexp(p.y, exponent), std::ldexp(p.z, exponent)};
+}
+
+int magnitude_of(const Box &box) {
+  double largest = 0;
+  for (int k = 0; k < 3; k++) largest = std::max({largest, std::abs(box.low[k]), std::abs(box.high[k])});
+  return std::ilogb(largest) + 1;
+}
+
+/// What [low, high] can be shifted by without rounding.
+double exact_shift(double low, double high) {
+  if (low > 0 && high <= 2 * low) return low;
+  if (high < 0 && low >= 2 * high) return high;
+  return 0;
+}
+
+}  // namespace
+
+Vec3 Frame::unit(const Vec3 &p) const { return scaled(p, -magnitude); }
+
+Vec3 Frame::into(const Vec3 &p) const {
+  const Vec3 q = unit(p) - shift;
+  return {std::ldexp(q.x, -zoom[0]), std::ldexp(q.y, -zoom[1]), std::ldexp(q.z, -zoom[2])};
+}
+
+Vec3 Frame::back(const Vec3 &q) const {
+  const Vec3 p = Vec3{std::ldexp(q.x, zoom[0]), std::ldexp(q.y, zoom[1]), std::ldexp(q.z, zoom[2])} + shift;
+  return scaled(p, magnitude);
+}
+
+Frame stretched_frame(const Box &box) {
+  Frame frame;
+  frame.magnitude = magnitude_of(box);
+  const Vec3 low = frame.unit(box.low), high = frame.unit(box.high);
+  for (int k = 0; k < 3; k++) {
+    frame.shift[k] = exact_shift(low[k], high[k]);
+    frame.zoom[std::size_t(k)] = std::ilogb(high[k] - low[k]);
+  }
+  return frame;
+}
+
+Frame uniform_frame(const Box &box) {
+  Frame frame = stretched_frame(box);
+  frame.zoom.fill(*std::max_element(frame.zoom.begin(), frame.zoom.end()));
+  return frame;
+}
+
+}  // namespace tetlod

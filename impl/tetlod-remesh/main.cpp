@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// tetlod-remesh: runs TetGen for libtetlod in a process of its own, one call after the other, until the host is gone.
+#include <malloc.h>
+#include <poll.h>
+#include <pthread.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <new>
+
+#include "channel.hpp"
+#include "tetgen_call.hpp"
+
+namespace tetlod::worker {
+
+namespace {
+
+constexpr int watch_interval = 100;  // milliseconds
+
+/// Ctrl-C and the end of a terminal are for the host to answer; a full file system is an error of write().
+void ignore_signals() {
+  for (const int signal : {SIGINT, SIGQUIT, SIGHUP, SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
+}
+
+/// Ends the process with the host, also in the middle of a call. The socket tells at once; but a process that the
+/// host has forked may keep its other end open, hence the question whose child we are. PR_SET_PDEATHSIG would not do:
+/// it fires when the thread ends that started us.
+void *watch_host(void *host) {
+  const pid_t host_pid = pid_t(reinterpret_cast<std::intptr_t>(host));
+  pollfd socket = {protocol::control_descriptor, 0, 0};
+  while (::getppid() == host_pid && !(socket.revents & (POLLHUP | POLLERR | POLLNVAL)))
+    ::poll(&socket, 1, watch_interval);
+  ::_exit(0);
+}
+
+bool start_watching(std::int64_t host_pid) {
+  pthread_attr_t attributes;
+  pthread_attr_init(&attributes);
+  pthread_attr_setstacksize(&attributes, std::size_t(1) << 16);  // the address space may be scarce
+  pthread_t thread;
+  const int error = pthread_create(&thread, &attributes, watch_host, reinterpret_cast<void *>(std::intptr_t(host_pid)));
+  pthread_attr_destroy(&attributes);
+  return error == 0;
+}
+
+void limit(__rlimit_resource resource, std::uint64_t bytes) {
+  rlimit current;
+  if (::getrlimit(resource, &current) != 0) return;
+  current.rlim_cur = std::min<rlim_t>(bytes, current.rlim_max);
+  ::setrlimit(resource, &current);
+}
+
+void limit_resources(std::uint64_t address_space) {
+  limit(RLIMIT_CORE, 0);
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // these reserve terabytes
+  if (address_space) limit(RLIMIT_AS, address_space);
+#else
+  (void)address_space;
+#endif
+}
+
+void greet() {
+  protocol::Hello hello;
+  std::strncpy(hello.tetlod_version, TETLOD_VERSION, sizeof hello.tetlod_version - 1);
+  send(&hello, sizeof hello);
+}
+
+void serve(const protocol::Call &call) {
+  protocol::Reply reply = tetrahedralize(call);
+  ::malloc_trim(0);
+  send_reply(reply);
+}
+
+/// An exception would run TetGen's destructors on structures that are half built.
+void report_exhaustion() { fail(protocol::out_of_memory, "out of memory"); }
+
+int explain() {
+  std::fprintf(stderr,
+               "tetlod-remesh %s (protocol %u): TetGen for libtetlod, which starts it by itself.\n"
+               "Licence: AGPL-3.0-or-later.\n",
+               TETLOD_VERSION, protocol::version);
+  return 2;
+}
+
+}  // namespace
+
+}  // namespace tetlod::worker
+
+int main() {
+  using namespace tetlod;
+  worker::ignore_signals();
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);  // what TetGen prints before it fails would be lost in a buffer
+  std::set_new_handler(worker::report_exhaustion);
+  protocol::Start start;
+  if (!worker::receive(&start, sizeof start) || start.magic != protocol::magic) return worker::explain();
+  if (!worker::start_watching(start.host_pid)) return 4;
+  worker::limit_resources(start.address_space);
+  worker::greet();
+  protocol::Call call;
+  while (worker::receive_call(call)) worker::serve(call);
+  ::_exit(0);
+}
