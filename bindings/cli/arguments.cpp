@@ -1,0 +1,109 @@
+#include "arguments.hpp"
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <vector>
+
+#include "failure.hpp"
+#include "output_file.hpp"
+#include "tetlod.h"
+
+namespace cli {
+namespace {
+
+struct NumberOption {
+  const char *name;  // as the library knows it
+  const char *help;
+};
+
+constexpr NumberOption kNumberOptions[] = {
+    {"rho", "largest variation of the field in a cluster, fraction of its range"},
+    {"sigma", "boundary edges kept, fraction of the original's"},
+    {"lambda", "shape optimization weight of the boundary's triangles"},
+    {"min-distance", "least distance of a sample to the boundary, fraction of the diagonal"},
+    {"merge-tolerance", "points this near become one, fraction of the diagonal"},
+    {"clean-edges", "boundary edges shorter than this are collapsed first, fraction of the diagonal"},
+    {"threads", "0: one a core"},
+    {"seed", "of the retries and of the error's samples"},
+    {"time-limit", "seconds for the simplification, 0: none"},
+};
+
+tetlod_bounds bounds_of(int32_t option) {
+  tetlod_bounds bounds{};
+  bounds.struct_size = sizeof bounds;
+  if (tetlod_option_bounds(option, &bounds) != TETLOD_OK) throw Failure("libtetlod does not know one of the options");
+  return bounds;
+}
+
+// The library's own default, so that the help cannot tell another one.
+std::string help_of(const NumberOption &option, const tetlod_bounds &bounds) {
+  std::ostringstream text;
+  text << option.help << " [" << bounds.preset << "]";
+  return text.str();
+}
+
+void add_number(CLI::App &app, const NumberOption &option, Arguments &arguments) {
+  const int32_t number = tetlod_option_from_name(option.name);
+  const tetlod_bounds bounds = bounds_of(number);
+  const std::string flag = std::string("--") + option.name, help = help_of(option, bounds);
+  if (bounds.is_integer != 0) {
+    const auto store = [number, &arguments](const int64_t &value) { arguments.integers[number] = value; };
+    app.add_option_function<int64_t>(flag, store, help)->type_name("N");
+  } else {
+    const auto store = [number, &arguments](const double &value) { arguments.reals[number] = value; };
+    app.add_option_function<double>(flag, store, help)->type_name("X");
+  }
+}
+
+int32_t preset_named(const std::string &name) {
+  if (name == "paper") return TETLOD_PRESET_PAPER;
+  throw CLI::ValidationError("--preset", "there is no preset '" + name + "' (there is: paper)");
+}
+
+void add_options(CLI::App &app, Arguments &arguments) {
+  app.add_option("INPUT", arguments.input, "the mesh: .vtu, .vtk or .pvtu")->required();
+  app.add_option("OUTPUT", arguments.output, "the simplified mesh: .vtu or .vtk")->required();
+  app.add_option("--field", arguments.field, "point data that steers [the active scalars, else the first]")
+      ->type_name("NAME");
+  const auto preset = [&arguments](const std::string &name) { arguments.preset = preset_named(name); };
+  app.add_option_function<std::string>("--preset", preset, "sets the other options: paper")->type_name("NAME");
+  for (const NumberOption &option : kNumberOptions) add_number(app, option, arguments);
+  app.add_option("--report", arguments.report, "writes what the run did as JSON")->type_name("FILE");
+  app.add_flag("--quiet", arguments.quiet, "prints errors only");
+}
+
+std::string joined(int argc, char **argv) {
+  std::string text;
+  for (int i = 0; i < argc; i++) text += (i > 0 ? " " : "") + std::string(argv[i]);
+  return text;
+}
+
+void check_endings(const Arguments &arguments) {
+  const std::string in = file_ending(arguments.input), out = file_ending(arguments.output);
+  if (in != ".vtu" && in != ".vtk" && in != ".pvtu") {
+    throw Failure(arguments.input + ": not a .vtu, .vtk or .pvtu file", kWrongUsage);
+  }
+  if (out != ".vtu" && out != ".vtk") throw Failure(arguments.output + ": not a .vtu or .vtk file", kWrongUsage);
+}
+
+}  // namespace
+
+std::optional<Arguments> parse_arguments(int argc, char **argv) {
+  Arguments arguments;
+  arguments.command = joined(argc, argv);
+  CLI::App app("Makes a tetrahedral mesh that carries a scalar field smaller.", "tetlod");
+  app.set_version_flag("--version", std::string(tetlod_build_info()));
+  add_options(app, arguments);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success &asked) {
+    app.exit(asked, std::cout, std::cerr);
+    return std::nullopt;
+  } catch (const CLI::ParseError &error) {
+    throw Failure(std::string(error.what()) + " (see tetlod --help)", kWrongUsage);
+  }
+  check_endings(arguments);
+  return arguments;
+}
+
+}  // namespace cli

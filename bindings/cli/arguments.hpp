@@ -1,0 +1,25 @@
+// The command line.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+
+namespace cli {
+
+struct Arguments {
+  std::string input, output;
+  std::string field;                // empty: see steering_field.hpp
+  std::optional<int32_t> preset;    // TETLOD_PRESET_*
+  std::map<int32_t, double> reals;  // TETLOD_OPT_* that were given
+  std::map<int32_t, int64_t> integers;
+  std::string report;  // empty: none
+  bool quiet = false;
+  std::string command;  // as it was typed
+};
+
+// Nothing when only help or the version was asked for; that is printed. Throws Failure for wrong usage.
+std::optional<Arguments> parse_arguments(int argc, char **argv);
+
+}  // namespace cli

@@ -1,0 +1,188 @@
+#include "grid_cells.hpp"
+
+#include <vtkCellArray.h>
+#include <vtkCellType.h>
+#include <vtkCellTypes.h>
+#include <vtkDataSetTriangleFilter.h>
+#include <vtkGenericCell.h>
+#include <vtkMath.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkTypeInt64Array.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include "failure.hpp"
+
+namespace cli {
+namespace {
+
+using Counts = std::map<int, vtkIdType>;  // of cells, by type
+
+// A cell that is taken by its corners, which VTK lists first.
+struct Solid {
+  int linear, corners;
+};
+
+const std::map<int, Solid> &solids() {
+  constexpr Solid tet{VTK_TETRA, 4}, pyramid{VTK_PYRAMID, 5}, wedge{VTK_WEDGE, 6}, hexahedron{VTK_HEXAHEDRON, 8};
+  static const std::map<int, Solid> table = {
+      {VTK_TETRA, tet},
+      {VTK_QUADRATIC_TETRA, tet},
+      {VTK_LAGRANGE_TETRAHEDRON, tet},
+      {VTK_BEZIER_TETRAHEDRON, tet},
+      {VTK_PYRAMID, pyramid},
+      {VTK_QUADRATIC_PYRAMID, pyramid},
+      {VTK_LAGRANGE_PYRAMID, pyramid},
+      {VTK_WEDGE, wedge},
+      {VTK_QUADRATIC_WEDGE, wedge},
+      {VTK_QUADRATIC_LINEAR_WEDGE, wedge},
+      {VTK_BIQUADRATIC_QUADRATIC_WEDGE, wedge},
+      {VTK_LAGRANGE_WEDGE, wedge},
+      {VTK_BEZIER_WEDGE, wedge},
+      {VTK_VOXEL, {VTK_VOXEL, 8}},
+      {VTK_HEXAHEDRON, hexahedron},
+      {VTK_QUADRATIC_HEXAHEDRON, hexahedron},
+      {VTK_BIQUADRATIC_QUADRATIC_HEXAHEDRON, hexahedron},
+      {VTK_TRIQUADRATIC_HEXAHEDRON, hexahedron},
+      {VTK_LAGRANGE_HEXAHEDRON, hexahedron},
+      {VTK_BEZIER_HEXAHEDRON, hexahedron},
+  };
+  return table;
+}
+
+bool is_solid(int type) { return solids().count(type) == 1; }
+
+int dimension_of(int type) {
+  const vtkSmartPointer<vtkCell> cell = vtk::TakeSmartPointer(vtkGenericCell::InstantiateCell(type));
+  return cell == nullptr ? 3 : cell->GetCellDimension();
+}
+
+std::string named(int type, vtkIdType count) {
+  const char *name = vtkCellTypes::GetClassNameFromTypeId(type);
+  return std::to_string(count) + " cells of type " + std::to_string(type) + " (" + name + ")";
+}
+
+Counts count_types(vtkUnstructuredGrid &grid) {
+  Counts counts;
+  for (vtkIdType c = 0; c < grid.GetNumberOfCells(); c++) counts[grid.GetCellType(c)]++;
+  return counts;
+}
+
+// Forgets the types that are left out. Throws for those that cannot be split.
+Counts solid_types(Counts counts, std::vector<std::string> &notes) {
+  vtkIdType flat = 0;
+  for (auto at = counts.begin(); at != counts.end();) {
+    const auto [type, count] = *at;
+    const bool solid = is_solid(type);
+    if (!solid && dimension_of(type) == 3) throw Failure(named(type, count) + " cannot be split into tets");
+    if (!solid) flat += count;
+    at = solid ? std::next(at) : counts.erase(at);
+  }
+  if (flat > 0) notes.push_back(std::to_string(flat) + " cells without a volume are left out");
+  if (counts.empty()) throw Failure("there are no cells with a volume");
+  return counts;
+}
+
+void note_curved(const Counts &counts, std::vector<std::string> &notes) {
+  for (const auto &[type, count] : counts) {
+    if (solids().at(type).linear != type) notes.push_back(named(type, count) + " are taken by their corners");
+  }
+}
+
+// VTK's filters trust the numbers in a file; the library does not, but sees them only afterwards.
+void check_cell(vtkIdType cell, vtkIdType size, const vtkIdType *ids, vtkIdType least_size, vtkIdType points) {
+  if (size < least_size)
+    throw Failure("cell " + std::to_string(cell) + " has " + std::to_string(size) + " points only");
+  const auto bad = std::find_if(ids, ids + size, [points](vtkIdType id) { return id < 0 || id >= points; });
+  if (bad == ids + size) return;
+  throw Failure("cell " + std::to_string(cell) + " names point " + std::to_string(*bad) +
+                ", which the mesh does not have");
+}
+
+// Calls use(type, ids) for each cell with a volume.
+template <class Use>
+void for_each_solid(vtkUnstructuredGrid &grid, int corners_or_more, const Use &use) {
+  for (vtkIdType c = 0; c < grid.GetNumberOfCells(); c++) {
+    const int type = grid.GetCellType(c);
+    if (!is_solid(type)) continue;
+    vtkIdType size = 0;
+    const vtkIdType *ids = nullptr;
+    grid.GetCells()->GetCellAtId(c, size, ids);
+    check_cell(c, size, ids, std::max(corners_or_more, solids().at(type).corners), grid.GetNumberOfPoints());
+    use(type, ids);
+  }
+}
+
+std::array<double, 3> point(vtkUnstructuredGrid &grid, vtkIdType id) {
+  std::array<double, 3> p{};
+  grid.GetPoint(id, p.data());
+  return p;
+}
+
+// Corners 0-3, then the middles of 01 12 02 03 13 23. A tet at each corner leaves an octahedron, which its shortest
+// diagonal cuts in four; the cell's faces are cut in the same four triangles from both sides.
+void cut_quadratic_tet(vtkUnstructuredGrid &grid, const vtkIdType *ids, vtkTypeInt64Array &tets) {
+  constexpr int corner[4][4] = {{0, 4, 6, 7}, {1, 5, 4, 8}, {2, 6, 5, 9}, {3, 7, 9, 8}};
+  constexpr int diagonal[3][2] = {{4, 9}, {5, 7}, {6, 8}};
+  constexpr int ring[3][4] = {{5, 6, 7, 8}, {4, 6, 9, 8}, {4, 5, 9, 7}};
+  const auto add = [&](int a, int b, int c, int d) {
+    for (int k : {a, b, c, d}) tets.InsertNextValue(ids[k]);
+  };
+  for (const auto &c : corner) add(c[0], c[1], c[2], c[3]);
+  double length[3];
+  for (int k = 0; k < 3; k++) {
+    const auto p = point(grid, ids[diagonal[k][0]]), q = point(grid, ids[diagonal[k][1]]);
+    length[k] = vtkMath::Distance2BetweenPoints(p.data(), q.data());
+  }
+  const auto best = std::min_element(length, length + 3) - length;
+  for (int k = 0; k < 4; k++) add(diagonal[best][0], diagonal[best][1], ring[best][k], ring[best][(k + 1) % 4]);
+}
+
+vtkSmartPointer<vtkDataArray> cut_quadratic_tets(vtkUnstructuredGrid &grid) {
+  auto tets = vtkSmartPointer<vtkTypeInt64Array>::New();
+  for_each_solid(grid, 10, [&](int, const vtkIdType *ids) { cut_quadratic_tet(grid, ids, *tets); });
+  return tets;
+}
+
+// The solids by their corners, as linear cells over the same points.
+vtkSmartPointer<vtkUnstructuredGrid> corner_grid(vtkUnstructuredGrid &grid) {
+  auto linear = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  linear->SetPoints(grid.GetPoints());
+  linear->Allocate(grid.GetNumberOfCells());
+  for_each_solid(grid, 0, [&](int type, const vtkIdType *ids) {
+    const Solid &solid = solids().at(type);
+    linear->InsertNextCell(solid.linear, solid.corners, ids);
+  });
+  return linear;
+}
+
+bool holds_tets_alone(vtkUnstructuredGrid &grid) {
+  const Counts counts = count_types(grid);
+  return counts.size() == 1 && counts.begin()->first == VTK_TETRA && grid.GetCells()->IsHomogeneous() == 4;
+}
+
+// Diagonals of quadrilaterals follow the order of the point numbers, so that neighbours agree.
+vtkSmartPointer<vtkDataArray> split(vtkSmartPointer<vtkUnstructuredGrid> grid) {
+  if (holds_tets_alone(*grid)) return grid->GetCells()->GetConnectivityArray();
+  vtkNew<vtkDataSetTriangleFilter> filter;
+  filter->TetrahedraOnlyOn();
+  filter->SetInputData(grid);
+  filter->Update();
+  return filter->GetOutput()->GetCells()->GetConnectivityArray();
+}
+
+}  // namespace
+
+vtkSmartPointer<vtkDataArray> tets_of(vtkUnstructuredGrid &grid, std::vector<std::string> &notes) {
+  if (holds_tets_alone(grid)) return grid.GetCells()->GetConnectivityArray();
+  const Counts types = solid_types(count_types(grid), notes);
+  if (types.size() == 1 && types.count(VTK_QUADRATIC_TETRA) == 1) return cut_quadratic_tets(grid);
+  note_curved(types, notes);
+  return split(corner_grid(grid));
+}
+
+}  // namespace cli

@@ -1,0 +1,28 @@
+// A file that appears whole or not at all: written under another name beside it, then renamed.
+#pragma once
+
+#include <string>
+
+namespace cli {
+
+class OutputFile {
+ public:
+  // Throws Failure when the folder cannot be written to, before any work is done for the file.
+  explicit OutputFile(const std::string &path);
+  ~OutputFile();
+  OutputFile(const OutputFile &) = delete;
+  OutputFile &operator=(const OutputFile &) = delete;
+
+  // Where to write; ends as the path does.
+  const std::string &temporary() const { return temporary_; }
+  // Gives the file its name. Throws Failure.
+  void keep();
+
+ private:
+  std::string path_, temporary_;
+};
+
+// ".vtu" of "a/b.VTU"; empty when there is none.
+std::string file_ending(const std::string &path);
+
+}  // namespace cli

@@ -1,0 +1,63 @@
+#include "read_grid.hpp"
+
+#include <vtkCellData.h>
+#include <vtkUnstructuredGridReader.h>
+#include <vtkXMLPUnstructuredGridReader.h>
+#include <vtkXMLUnstructuredGridReader.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "failure.hpp"
+#include "output_file.hpp"
+
+namespace cli {
+namespace {
+
+using Grid = vtkSmartPointer<vtkUnstructuredGrid>;
+
+void check_readable(const std::string &path) {
+  if (!std::ifstream(path)) throw Failure(path + ": cannot be read: " + std::strerror(errno));
+  if (!std::filesystem::is_regular_file(path)) throw Failure(path + ": is not a file");
+}
+
+template <class Reader>
+Grid read_with(Reader &reader, const std::string &path) {
+  reader.SetFileName(path.c_str());
+  reader.Update();
+  return reader.GetOutput();
+}
+
+Grid read_legacy(const std::string &path) {
+  vtkNew<vtkUnstructuredGridReader> reader;
+  reader->ReadAllScalarsOn();  // otherwise only the first ones
+  reader->ReadAllFieldsOn();
+  return read_with(*reader, path);
+}
+
+Grid read_by_ending(const std::string &path) {
+  const std::string ending = file_ending(path);
+  if (ending == ".vtk") return read_legacy(path);
+  if (ending == ".pvtu") return read_with(*vtkNew<vtkXMLPUnstructuredGridReader>(), path);
+  return read_with(*vtkNew<vtkXMLUnstructuredGridReader>(), path);
+}
+
+void drop_ghosts(vtkUnstructuredGrid &grid) {
+  if (grid.GetCellData()->HasArray(vtkDataSetAttributes::GhostArrayName())) grid.RemoveGhostCells();
+}
+
+}  // namespace
+
+vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string &path, VtkMessages &messages,
+                                               std::vector<std::string> &notes) {
+  check_readable(path);
+  Grid grid = read_by_ending(path);
+  messages.check(path, notes);
+  if (grid == nullptr || grid->GetNumberOfCells() == 0) throw Failure(path + ": holds no cells");
+  drop_ghosts(*grid);
+  return grid;
+}
+
+}  // namespace cli

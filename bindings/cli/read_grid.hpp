@@ -1,0 +1,18 @@
+// Reading a mesh file.
+#pragma once
+
+#include <vtkSmartPointer.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <string>
+#include <vector>
+
+#include "vtk_messages.hpp"
+
+namespace cli {
+
+// .vtu, .vtk or .pvtu; ghost cells of a partitioned file are left out. Throws Failure.
+vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string &path, VtkMessages &messages,
+                                               std::vector<std::string> &notes);
+
+}  // namespace cli

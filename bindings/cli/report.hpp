@@ -1,0 +1,19 @@
+// The JSON that --report asks for.
+#pragma once
+
+#include <string>
+
+#include "arguments.hpp"
+#include "simplify.hpp"
+
+namespace cli {
+
+// Seconds of the tool's own, beside those of tetlod_run.
+struct ToolSeconds {
+  double reading = 0, writing = 0, measuring = 0;
+};
+
+void write_report(const std::string &path, const Arguments &arguments, const std::string &field,
+                  const tetlod_context *context, const tetlod_error_report &error, const ToolSeconds &seconds);
+
+}  // namespace cli

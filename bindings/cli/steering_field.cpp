@@ -1,0 +1,53 @@
+#include "steering_field.hpp"
+
+#include <vtkCellData.h>
+#include <vtkPointData.h>
+
+#include "failure.hpp"
+
+namespace cli {
+namespace {
+
+bool is_scalar(vtkDataArray *array) { return array != nullptr && array->GetNumberOfComponents() == 1; }
+
+// "a, b (3 components)"
+std::string names_of(vtkPointData &data) {
+  std::string names;
+  for (int i = 0; i < data.GetNumberOfArrays(); i++) {
+    vtkDataArray *array = data.GetArray(i);
+    if (array == nullptr || array->GetName() == nullptr) continue;
+    names += (names.empty() ? "" : ", ") + std::string(array->GetName());
+    if (!is_scalar(array)) names += " (" + std::to_string(array->GetNumberOfComponents()) + " components)";
+  }
+  return names;
+}
+
+std::string what_there_is(vtkPointData &data) {
+  const std::string names = names_of(data);
+  return names.empty() ? "there is no point data" : "point data: " + names;
+}
+
+std::string why_not(vtkUnstructuredGrid &grid, const std::string &name) {
+  if (grid.GetPointData()->HasArray(name.c_str())) return "field '" + name + "' is not one number a point";
+  if (grid.GetCellData()->HasArray(name.c_str())) return "field '" + name + "' is cell data";
+  return "no field '" + name + "'";
+}
+
+vtkDataArray *first_scalar(vtkPointData &data) {
+  if (is_scalar(data.GetScalars())) return data.GetScalars();
+  for (int i = 0; i < data.GetNumberOfArrays(); i++) {
+    if (is_scalar(data.GetArray(i))) return data.GetArray(i);
+  }
+  throw Failure("no field of one number a point; " + what_there_is(data));
+}
+
+}  // namespace
+
+vtkDataArray *steering_field(vtkUnstructuredGrid &grid, const std::string &name) {
+  if (name.empty()) return first_scalar(*grid.GetPointData());
+  vtkDataArray *array = grid.GetPointData()->GetArray(name.c_str());
+  if (!is_scalar(array)) throw Failure(why_not(grid, name) + "; " + what_there_is(*grid.GetPointData()));
+  return array;
+}
+
+}  // namespace cli
