@@ -1,0 +1,130 @@
+// Every format and kind of cell that the tool reads and writes. The field is linear, so the result's error is rounding
+// only, and a split that did not fit would leave more boundary triangles than the cube's sides have.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "mesh_file.hpp"
+#include "tool.hpp"
+
+namespace cli_test {
+namespace {
+
+using Json = nlohmann::json;
+
+class Files : public testing::Test {
+ protected:
+  // The report of a run that is expected to succeed. All boundary edges are kept: these tests are about files.
+  Json run(const std::string &in, const std::string &out, std::vector<std::string> more = {}) {
+    more.insert(more.begin(), {in, out, "--sigma", "1", "--report", folder / "report.json"});
+    said = run_tool(more);
+    EXPECT_EQ(said.status, 0) << said.err;
+    std::ifstream file(folder / "report.json");
+    return Json::parse(file, nullptr, false);
+  }
+  Json run_on(const Cube &cube) {
+    write_cube(folder / "in.vtk", cube);
+    return run(folder / "in.vtk", folder / "out.vtu");
+  }
+
+  Folder folder;
+  Outcome said;
+};
+
+void expect_linear_field_kept(const Json &report) {
+  ASSERT_TRUE(report.is_object());
+  EXPECT_GT(report["tets_out"], 0);
+  EXPECT_LT(report["error"]["max"], 1e-5);
+  EXPECT_EQ(report["error"]["outside"], 0.0);
+}
+
+struct Split {
+  Kind kind;
+  int least_tets, most_tets, triangles;  // a cell, and a square of the cube's sides
+};
+
+class Splits : public Files, public testing::WithParamInterface<Split> {};
+
+TEST_P(Splits, NeighboursFit) {
+  Cube cube;
+  cube.kind = GetParam().kind;
+  const int cells = cube.size * cube.size * cube.size, squares = 6 * cube.size * cube.size;
+  const Json report = run_on(cube);
+  expect_linear_field_kept(report);
+  EXPECT_GE(report["tets_in"], GetParam().least_tets * cells);
+  EXPECT_LE(report["tets_in"], GetParam().most_tets * cells);
+  EXPECT_EQ(report["boundary_triangles_in"], GetParam().triangles * squares);
+  EXPECT_EQ(report["components"], 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, Splits,
+                         testing::Values(Split{Kind::tet, 6, 6, 2}, Split{Kind::hexahedron, 5, 6, 2},
+                                         Split{Kind::voxel, 5, 6, 2}, Split{Kind::wedge, 6, 6, 2},
+                                         Split{Kind::pyramid, 12, 12, 2}, Split{Kind::quadratic_tet, 48, 48, 8},
+                                         Split{Kind::quadratic_hexahedron, 5, 6, 2}));
+
+TEST_F(Files, FloatsAndIntegersOfEitherWidth) {
+  for (const char *real : {"float", "double"}) {
+    for (const char *integer : {"", "int", "vtktypeint64"}) {
+      Cube cube;
+      cube.real = real;
+      cube.integer = integer;
+      expect_linear_field_kept(run_on(cube));
+    }
+  }
+}
+
+TEST_F(Files, SurfaceCellsAreLeftOutAndSaidSo) {
+  Cube cube;
+  cube.with_triangle = true;
+  expect_linear_field_kept(run_on(cube));
+  EXPECT_EQ(lines_of(said.err), 1) << said.err;
+  EXPECT_NE(said.err.find("left out"), std::string::npos) << said.err;
+}
+
+// The result is read again, as .vtu and as .vtk, and holds what the report counted.
+TEST_F(Files, ResultsAreFilesOfTheSameKind) {
+  write_cube(folder / "in.vtk", {});
+  for (const char *name : {"out.vtu", "out.vtk"}) {
+    const Json first = run(folder / "in.vtk", folder / name, {"--field", "other"});
+    const Json second = run(folder / name, folder / "again.vtu", {"--field", "other"});
+    EXPECT_EQ(second["tets_in"], first["tets_out"]);
+    EXPECT_EQ(second["points_in"], first["points_out"]);
+    expect_linear_field_kept(second);
+  }
+}
+
+TEST_F(Files, TheFirstScalarsAreTheDefault) {
+  EXPECT_EQ(run_on({})["field"], "heat");
+  EXPECT_EQ(run(folder / "in.vtk", folder / "out.vtu", {"--field", "other"})["field"], "other");
+}
+
+// Two cubes side by side: the points of the side between them are in both pieces, and become one.
+TEST_F(Files, PartitionedFilesAreOneMesh) {
+  Cube cube;
+  const int row = cube.size + 1;
+  for (const char *name : {"left.vtu", "right.vtu"}) {
+    write_cube(folder / "in.vtk", cube);
+    run(folder / "in.vtk", folder / name);
+    cube.shift = 1;
+  }
+  std::ofstream(folder / "whole.pvtu") << R"(<VTKFile type="PUnstructuredGrid" version="0.1">
+<PUnstructuredGrid GhostLevel="0">
+<PPointData Scalars="heat"><PDataArray type="Float64" Name="heat"/></PPointData>
+<PPoints><PDataArray type="Float64" NumberOfComponents="3"/></PPoints>
+<Piece Source="left.vtu"/><Piece Source="right.vtu"/>
+</PUnstructuredGrid></VTKFile>)";
+  const Json report = run(folder / "whole.pvtu", folder / "out.vtu");
+  expect_linear_field_kept(report);
+  EXPECT_EQ(report["merged_points"], row * row);
+  EXPECT_EQ(report["components"], 1);
+}
+
+TEST_F(Files, NothingIsLeftBesideTheResult) {
+  run_on({});
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{"in.vtk", "out.vtu", "report.json"}));
+}
+
+}  // namespace
+}  // namespace cli_test

@@ -1,0 +1,25 @@
+// Small meshes as legacy .vtk files in ASCII, written by hand: the unit cube cut into size^3 cells of one kind.
+#pragma once
+
+#include <string>
+
+namespace cli_test {
+
+enum class Kind { tet, hexahedron, voxel, wedge, pyramid, quadratic_tet, quadratic_hexahedron, polyhedron };
+
+struct Cube {
+  Kind kind = Kind::tet;
+  int size = 6;
+  std::string real = "double";  // type of coordinates and values: float or double
+  std::string integer;          // int or vtktypeint64: format 5.1; empty: format 4.2
+  double shift = 0;             // of all points along x
+  bool with_triangle = false;   // beside the volume cells
+  bool with_nan = false;        // the first value
+  bool with_bad_index = false;  // in the last cell
+};
+
+// Point data: the active scalars "heat" = x + 2 y + 3 z, further scalars "other" = x, vectors "flow". Cell data:
+// "part".
+void write_cube(const std::string &path, const Cube &cube);
+
+}  // namespace cli_test

@@ -1,0 +1,78 @@
+// What the tool prints of a run, and the report's names, which others read.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "mesh_file.hpp"
+#include "tool.hpp"
+
+namespace cli_test {
+namespace {
+
+using Json = nlohmann::json;
+
+class Report : public testing::Test {
+ protected:
+  Outcome run(std::vector<std::string> more = {}) {
+    write_cube(folder / "in.vtk", {});
+    more.insert(more.begin(), {folder / "in.vtk", folder / "out.vtu", "--report", folder / "report.json"});
+    const Outcome outcome = run_tool(more);
+    std::ifstream file(folder / "report.json");
+    json = Json::parse(file, nullptr, false);
+    return outcome;
+  }
+
+  Folder folder;
+  Json json;
+};
+
+TEST_F(Report, HasTheNamesThatAreDocumented) {
+  ASSERT_EQ(run().status, 0);
+  ASSERT_TRUE(json.is_object());
+  for (const char *name : {"tets_in", "tets_out", "points_in", "points_out", "samples", "steiner_points",
+                           "boundary_edges_in", "boundary_edges_out", "peak_bytes"}) {
+    EXPECT_TRUE(json[name].is_number_integer()) << name;
+  }
+  for (const char *name : {"rms", "max", "outside"}) EXPECT_TRUE(json["error"][name].is_number()) << name;
+  for (const char *name : {"boundary", "decimate", "sample", "cull", "remesh", "values", "total"}) {
+    EXPECT_TRUE(json["seconds"][name].is_number()) << name;
+  }
+}
+
+TEST_F(Report, CountsTheInput) {
+  ASSERT_EQ(run().status, 0);
+  EXPECT_EQ(json["tets_in"], 6 * 6 * 6 * 6);
+  EXPECT_EQ(json["points_in"], 7 * 7 * 7);
+  EXPECT_EQ(json["boundary_edges_in"], 6 * 6 * 6 * 3);
+  EXPECT_EQ(json["scalar_max"], 6.0);
+  EXPECT_GE(json["seconds"]["total"], json["seconds"]["remesh"]);
+}
+
+TEST_F(Report, OptionsAreThoseInEffect) {
+  ASSERT_EQ(run({"--lambda", "0.3", "--rho", "0.02", "--seed", "7", "--preset", "paper"}).status, 0);
+  EXPECT_EQ(json["options"]["rho"], 0.02);
+  EXPECT_EQ(json["options"]["lambda"], 0.3) << "what is typed goes before the preset, wherever it stands";
+  EXPECT_EQ(json["options"]["seed"], 7);
+  EXPECT_NE(json["command"].get<std::string>().find("--rho 0.02"), std::string::npos);
+}
+
+TEST_F(Report, TableIsPrintedUnlessQuiet) {
+  const Outcome loud = run(), quiet = run({"--quiet"});
+  for (const char *row : {"Steiner points", "selected samples", "reading mesh", "CDT", "total (real)", "MB", "RMS"}) {
+    EXPECT_NE(loud.out.find(row), std::string::npos) << row;
+  }
+  EXPECT_EQ(quiet.out, "");
+  EXPECT_EQ(loud.err + quiet.err, "") << "no progress bar where there is no terminal";
+}
+
+TEST_F(Report, SameBytesForAnyNumberOfThreads) {
+  ASSERT_EQ(run({"--threads", "1"}).status, 0);
+  const std::string hash = json["hash"], bytes = contents_of(folder / "out.vtu");
+  ASSERT_EQ(run({"--threads", "2"}).status, 0);
+  EXPECT_EQ(json["hash"], hash);
+  EXPECT_EQ(contents_of(folder / "out.vtu"), bytes);
+}
+
+}  // namespace
+}  // namespace cli_test

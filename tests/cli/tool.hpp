@@ -1,0 +1,42 @@
+// Runs the command line tool and keeps what it said.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace cli_test {
+
+struct Outcome {
+  int status = -1;  // 128 and more: died of a signal
+  std::string out, err;
+};
+
+// Arguments are passed as they are, no shell between. The tool's stdout and stderr are files, not terminals.
+Outcome run_tool(const std::vector<std::string> &arguments);
+
+// The same, interrupted (SIGINT) as soon as the tool is ready for that.
+Outcome interrupt_tool(const std::vector<std::string> &arguments);
+
+// A folder of its own for a test, gone with it.
+class Folder {
+ public:
+  Folder();
+  ~Folder();
+  Folder(const Folder &) = delete;
+  Folder &operator=(const Folder &) = delete;
+
+  std::string operator/(const std::string &name) const { return (path_ / name).string(); }
+  // Names of what is in it, sorted.
+  std::vector<std::string> names() const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+// Number of lines; the last one must end.
+long lines_of(const std::string &text);
+
+std::string contents_of(const std::string &path);
+
+}  // namespace cli_test

@@ -1,0 +1,115 @@
+// Wrong usage ends with status 2, everything else that fails with 1; either way one line on stderr, nothing on stdout
+// and no file.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "mesh_file.hpp"
+#include "tool.hpp"
+
+namespace cli_test {
+namespace {
+
+void expect_failure(const Outcome &outcome, int status, const std::string &said) {
+  EXPECT_EQ(outcome.status, status) << outcome.err;
+  EXPECT_EQ(lines_of(outcome.err), 1) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(outcome.err.rfind("tetlod: ", 0), 0U) << outcome.err;
+  EXPECT_NE(outcome.err.find(said), std::string::npos) << "'" << said << "' is not in: " << outcome.err;
+}
+
+class Usage : public testing::Test {
+ protected:
+  // The cube's file, and arguments after it.
+  Outcome run_on(const Cube &cube, std::vector<std::string> more = {}) {
+    write_cube(folder / "in.vtk", cube);
+    more.insert(more.begin(), {folder / "in.vtk", folder / "out.vtu"});
+    return run_tool(more);
+  }
+  void expect_only_input() { EXPECT_EQ(folder.names(), std::vector<std::string>{"in.vtk"}); }
+
+  Folder folder;
+};
+
+TEST_F(Usage, HelpAndVersionArePrinted) {
+  const Outcome help = run_tool({"--help"}), version = run_tool({"--version"});
+  EXPECT_EQ(help.status, 0);
+  EXPECT_NE(help.out.find("--min-distance"), std::string::npos);
+  EXPECT_EQ(version.status, 0);
+  EXPECT_EQ(version.out.rfind("tetlod ", 0), 0U);
+  EXPECT_EQ(help.err + version.err, "");
+}
+
+TEST_F(Usage, WrongCommandLines) {
+  const std::string in = folder / "in.vtk", out = folder / "out.vtu";
+  write_cube(in, {});
+  expect_failure(run_tool({}), 2, "INPUT");
+  expect_failure(run_tool({in}), 2, "OUTPUT");
+  expect_failure(run_tool({in, out, "--nonsense", "1"}), 2, "--nonsense");
+  expect_failure(run_tool({in, out, "--rho", "many"}), 2, "--rho");
+  expect_failure(run_tool({in, out, "--rho", "-1"}), 2, "rho");
+  expect_failure(run_tool({in, out, "--rho", "nan"}), 2, "rho");
+  expect_failure(run_tool({in, out, "--sigma", "1e9"}), 2, "sigma");
+  expect_failure(run_tool({in, out, "--threads", "-3"}), 2, "threads");
+  expect_failure(run_tool({in, out, "--threads", "1.5"}), 2, "--threads");
+  expect_failure(run_tool({in, out, "--preset", "none-such"}), 2, "none-such");
+  expect_failure(run_tool({in, folder / "out.stl"}), 2, "out.stl");
+  expect_failure(run_tool({folder / "in.stl", out}), 2, "in.stl");
+  expect_only_input();
+}
+
+TEST_F(Usage, FilesThatCannotBeRead) {
+  const std::string out = folder / "out.vtu";
+  expect_failure(run_tool({folder / "missing.vtu", out}), 1, "missing.vtu");
+  expect_failure(run_tool({folder / "missing.vtk", out}), 1, "missing.vtk");
+  write_cube(folder / "in.vtk", {});
+  const std::string whole = contents_of(folder / "in.vtk");
+  for (const char *name : {"bad.vtu", "bad.vtk", "bad.pvtu"}) {
+    std::ofstream(folder / name) << "this is no mesh\n";
+    expect_failure(run_tool({folder / name, out}), 1, name);
+    std::ofstream(folder / name, std::ios::trunc);
+    expect_failure(run_tool({folder / name, out}), 1, name);
+  }
+  std::ofstream(folder / "cut.vtk") << whole.substr(0, whole.size() / 3);
+  expect_failure(run_tool({folder / "cut.vtk", out}), 1, "cut.vtk");
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+TEST_F(Usage, FilesThatCannotBeWritten) {
+  write_cube(folder / "in.vtk", {});
+  const std::string in = folder / "in.vtk";
+  expect_failure(run_tool({in, folder / "no/such/out.vtu"}), 1, "out.vtu");
+  expect_failure(run_tool({in, folder / "out.vtu", "--report", folder / "no/such/r.json"}), 1, "r.json");
+  expect_only_input();
+}
+
+TEST_F(Usage, AFieldThatIsNotThere) {
+  expect_failure(run_on({}, {"--field", "cold"}), 1, "heat");
+  expect_failure(run_on({}, {"--field", "cold"}), 1, "other");
+  expect_failure(run_on({}, {"--field", "flow"}), 1, "not one number");
+  expect_failure(run_on({}, {"--field", "part"}), 1, "cell data");
+  expect_only_input();
+}
+
+TEST_F(Usage, BadMeshes) {
+  Cube nan, index, polyhedra, hexahedra_index;
+  nan.with_nan = index.with_bad_index = hexahedra_index.with_bad_index = true;
+  polyhedra.kind = Kind::polyhedron;
+  hexahedra_index.kind = Kind::hexahedron;
+  expect_failure(run_on(nan), 1, "nan");
+  expect_failure(run_on(index), 1, "343");
+  expect_failure(run_on(hexahedra_index), 1, "343");
+  expect_failure(run_on(polyhedra), 1, "olyhedron");
+  expect_only_input();
+}
+
+TEST_F(Usage, AnInterruptionLeavesNothingBehind) {
+  Cube cube;
+  cube.size = 30;
+  write_cube(folder / "in.vtk", cube);
+  expect_failure(interrupt_tool({folder / "in.vtk", folder / "out.vtu"}), 1, "interrupted");
+  expect_only_input();
+}
+
+}  // namespace
+}  // namespace cli_test
