@@ -11,17 +11,22 @@ namespace tetlod {
 /// spoke i is the triangle (centre, ring i, ring i + 1).
 struct Star {
   explicit Star(Memory &memory)
-      : ring(&memory), ring_id(&memory), old_normal(&memory), outer_normal(&memory), old_faces(&memory), normal(&memory) {}
+      : ring(&memory),
+        ring_id(&memory),
+        old_normal(&memory),
+        outer_normal(&memory),
+        old_faces(&memory),
+        normal(&memory) {}
 
   Vec3 centre{0};
-  std::int32_t centre_id = 0;         ///< id that no ring vertex has
-  double old_quality = 1;             ///< the worst triangle before
+  std::int32_t centre_id = 0;  ///< id that no ring vertex has
+  double old_quality = 1;      ///< the worst triangle before
   Array<Vec3> ring;
-  Array<std::int32_t> ring_id;        ///< points that are the same in the uncut surface have the same id
-  Array<Vec3> old_normal;             ///< area vector of the triangle that spoke i replaces
-  Array<Vec3> outer_normal;           ///< area vector of the triangle on the other side of ring edge i
-  Array<std::int32_t> old_faces;      ///< all triangles that go, also the two at the edge
-  Array<Vec3> normal;                 ///< area vector of spoke i, made by find_normals
+  Array<std::int32_t> ring_id;    ///< points that are the same in the uncut surface have the same id
+  Array<Vec3> old_normal;         ///< area vector of the triangle that spoke i replaces
+  Array<Vec3> outer_normal;       ///< area vector of the triangle on the other side of ring edge i
+  Array<std::int32_t> old_faces;  ///< all triangles that go, also the two at the edge
+  Array<Vec3> normal;             ///< area vector of spoke i, made by find_normals
 
   std::size_t size() const { return ring.size(); }
   std::size_t after(std::size_t i) const { return i + 1 == ring.size() ? 0 : i + 1; }
@@ -30,12 +35,13 @@ struct Star {
   Box box() const;
 };
 
-/// The triangles of the surface as it is now, for the rule that looks at what is far along the surface but near in space.
+/// The triangles of the surface as it is now, for the rule that looks at what is far along the surface but near in
+/// space.
 struct SurfaceNow {
   const KdTree &tree;
   Span<const Vec3> points;
-  Span<const Triangle> triangles;   ///< cut vertices, to look up points
-  Span<const std::int32_t> id;      ///< of each cut vertex
+  Span<const Triangle> triangles;  ///< cut vertices, to look up points
+  Span<const std::int32_t> id;     ///< of each cut vertex
 };
 
 /// A triangle's normal turns further than is likely on a smooth surface, or flips.

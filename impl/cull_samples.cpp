@@ -32,7 +32,7 @@ Verdict judge(const Vec3 &p, const Surface &surface, const SurfaceDistance &dist
 
 CullReport cull_samples(Span<const Vec3> points, const Surface &surface, const SurfaceTopology &topology,
                         double min_distance, std::int64_t leaf, Job &job, Array<std::int32_t> &samples) {
-  const SurfaceDistance distance(surface, topology, leaf, job.memory);
+  const SurfaceDistance distance(surface, topology, leaf, job);
   Array<Verdict> verdicts(samples.size(), Verdict::keep, &job.memory);
   job.parallel.for_blocks(samples.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; i++)

@@ -44,11 +44,15 @@ class Decimator {
 
   std::int64_t edges() const { return edges_; }
 
-  /// Collapses the edge of lowest cost until `target` edges are left; with a limit on the length the cost is the length.
+  /// Collapses the edge of lowest cost until `target` edges are left; with a limit on the length the cost is the
+  /// length.
   void collapse_until(std::int64_t target, double length_limit) {
     by_length_ = length_limit > 0;
     const std::int64_t start = edges_;
-    for (std::size_t e = 0; e < mesh_.n_edges(); e++) update_cost(OpenMesh::EdgeHandle(int(e)));
+    for (std::size_t e = 0; e < mesh_.n_edges(); e++) {
+      if (e % 16384 == 0) job_.poll(0);
+      update_cost(OpenMesh::EdgeHandle(int(e)));
+    }
     for (std::int64_t step = 0; edges_ > target && !queue_.empty(); step++) {
       const OpenMesh::EdgeHandle edge(queue_.top());
       if (by_length_ && queue_.cost(edge.idx()) > length_limit * length_limit) break;
@@ -116,6 +120,7 @@ class Decimator {
       halfedge[mate] = mesh_.opposite_halfedge_handle(made).idx();
     }
     for (std::size_t t = 0; t < surface_.triangles.size(); t++) {
+      if (t % 16384 == 0) job_.poll(0);
       const OpenMesh::FaceHandle face = mesh_.new_face();
       Triangle vertices{};
       for (std::size_t k = 0; k < 3; k++) {
@@ -137,7 +142,7 @@ class Decimator {
     Array<Box> boxes(&job_.memory);
     boxes.reserve(triangle_.size());
     for (const Triangle &t : triangle_) boxes.push_back(box_of(t));
-    tree_.build(std::move(boxes), 4);
+    tree_.build(std::move(boxes), 4, [this] { job_.poll(0); });
   }
 
   // ---- Geometry of what is there

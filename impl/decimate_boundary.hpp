@@ -19,9 +19,10 @@ struct DecimateReport {
   std::int64_t cleaned_edges = 0;
 };
 
-/// `topology` is the surface's own. Collapses edges of `surface`, lowest cost first, until at most sigma of its edges are left or no collapse is
-/// admissible. Points with locked[i] != 0 (empty: none), and points where the surface touches itself, stay. What is
-/// handed back is closed, of the same topology, and crosses itself nowhere that the input did not.
+/// `topology` is the surface's own. Collapses edges of `surface`, lowest cost first, until at most sigma of its edges
+/// are left or no collapse is admissible. Points with locked[i] != 0 (empty: none), and points where the surface
+/// touches itself, stay. What is handed back is closed, of the same topology, and crosses itself nowhere that the input
+/// did not.
 DecimateReport decimate_boundary(Surface &surface, const SurfaceTopology &topology, Span<const std::uint8_t> locked,
                                  const DecimateOptions &options, Job &job);
 

@@ -18,6 +18,11 @@ inline double det(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &d) {
 /// Twice the area vector of a triangle.
 inline Vec3 area_vector(const Vec3 &a, const Vec3 &b, const Vec3 &c) { return glm::cross(b - a, c - a); }
 
+/// Exact, as long as nothing becomes subnormal.
+inline Vec3 times_power_of_two(const Vec3 &p, int exponent) {
+  return {std::ldexp(p.x, exponent), std::ldexp(p.y, exponent), std::ldexp(p.z, exponent)};
+}
+
 inline double length2(const Vec3 &v) { return glm::dot(v, v); }
 
 /// 1 for an equilateral triangle, 0 for a degenerate one: 4 sqrt(3) area / sum of squared edges.

@@ -26,7 +26,7 @@ Array<std::int32_t> find_candidates(const MeshView &mesh, Span<const Vec3> point
   boxes.reserve(points.size());
   for (const Vec3 &p : points) boxes.push_back(box_at(p));
   KdTree tree(job.memory);
-  tree.build(std::move(boxes), 8);
+  tree.build(std::move(boxes), 8, [&] { job.poll(0); });
   Array<std::uint8_t> holds(mesh.tets.size(), 0, &job.memory);
   job.parallel.for_blocks(mesh.tets.size(), tets_in_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; t++)
@@ -51,12 +51,12 @@ double value_in_tet(const MeshView &mesh, const Tet &t, const double weights[4])
 
 class TetTree {
  public:
-  TetTree(const MeshView &mesh, Array<std::int32_t> &&tets, std::int64_t leaf, Memory &memory)
-      : mesh_(mesh), tets_(std::move(tets)), tree_(memory) {
-    Array<Box> boxes(&memory);
+  TetTree(const MeshView &mesh, Array<std::int32_t> &&tets, std::int64_t leaf, Job &job)
+      : mesh_(mesh), tets_(std::move(tets)), tree_(job.memory) {
+    Array<Box> boxes(&job.memory);
     boxes.reserve(tets_.size());
     for (std::int32_t t : tets_) boxes.push_back(box_of(mesh, mesh.tets[std::size_t(t)]));
-    tree_.build(std::move(boxes), leaf);
+    tree_.build(std::move(boxes), leaf, [&] { job.poll(0.5); });
   }
 
   /// False when no tet holds p.
@@ -97,14 +97,14 @@ void interpolate(const MeshView &mesh, Span<const Triangle> boundary, Span<const
                  Job &job, Array<double> &values) {
   values.assign(points.size(), 0.0);
   if (points.empty()) return;
-  const TetTree tets(mesh, find_candidates(mesh, points, job), leaf, job.memory);
+  const TetTree tets(mesh, find_candidates(mesh, points, job), leaf, job);
   Array<std::uint8_t> outside(points.size(), 0, &job.memory);
   job.parallel.for_blocks(points.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; i++) outside[i] = !tets.value_at(points[i], values[i]);
     job.poll(0.5 + 0.4 * double(end) / double(points.size()));
   });
   if (std::find(outside.begin(), outside.end(), 1) == outside.end()) return;
-  const NearestTriangle nearest(mesh.points, boundary, 8, job.memory);
+  const NearestTriangle nearest(mesh.points, boundary, 8, job);
   job.parallel.for_blocks(points.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; i++)
       if (outside[i]) values[i] = value_on_boundary(mesh, boundary, nearest, points[i]);

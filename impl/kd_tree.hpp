@@ -28,11 +28,17 @@ class KdTree {
 
   /// Splits at the median of the boxes' centres along the longest extent, until at most `leaf` items are left.
   void build(Array<Box> &&boxes, std::int64_t leaf) {
+    build(std::move(boxes), leaf, [] {});
+  }
+
+  /// The same; poll() is called every few thousand items of work.
+  template <class Poll>
+  void build(Array<Box> &&boxes, std::int64_t leaf, const Poll &poll) {
     boxes_ = std::move(boxes);
     items_.resize(boxes_.size());
     for (std::size_t i = 0; i < items_.size(); i++) items_[i] = std::int32_t(i);
     nodes_.clear();
-    if (!items_.empty()) split(0, std::int32_t(items_.size()), -1, std::int32_t(std::max<std::int64_t>(leaf, 1)));
+    if (!items_.empty()) split(0, std::int32_t(items_.size()), -1, std::int32_t(std::max<std::int64_t>(leaf, 1)), poll);
   }
 
   bool empty() const { return nodes_.empty(); }
@@ -126,7 +132,9 @@ class KdTree {
     return box;
   }
 
-  std::int32_t split(std::int32_t begin, std::int32_t end, std::int32_t parent, std::int32_t leaf) {
+  template <class Poll>
+  std::int32_t split(std::int32_t begin, std::int32_t end, std::int32_t parent, std::int32_t leaf, const Poll &poll) {
+    if (end - begin > 1024) poll();
     const std::int32_t self = std::int32_t(nodes_.size());
     nodes_.push_back({Box(), begin, end, 0, parent});
     nodes_[std::size_t(self)].box = box_below(self);
@@ -142,8 +150,8 @@ class KdTree {
       return ca != cb ? ca < cb : a < b;
     };
     std::nth_element(items_.begin() + begin, items_.begin() + middle, items_.begin() + end, less);
-    split(begin, middle, self, leaf);
-    const std::int32_t right = split(middle, end, self, leaf);
+    split(begin, middle, self, leaf, poll);
+    const std::int32_t right = split(middle, end, self, leaf, poll);
     nodes_[std::size_t(self)].right = right;
     return self;
   }

@@ -1,6 +1,6 @@
 // 3.2  Placement and cost of an edge collapse after Lindstrom and Turk, "Fast and Memory Efficient Polygonal
-// Simplification" (1998), as the paper combines them: volume preservation as a constraint, volume and shape optimization
-// coupled under it, shape optimization alone where that has no answer.
+// Simplification" (1998), as the paper combines them: volume preservation as a constraint, volume and shape
+// optimization coupled under it, shape optimization alone where that has no answer.
 //
 // Every triangle t of the collapse gives a tet with the new vertex x, of six times the volume n_t . x - d_t, where n_t
 // is twice the area vector and d_t = n_t . p. So the sums below are all that placement needs, and they are kept per
@@ -13,7 +13,7 @@
 namespace tetlod {
 
 struct TrianglePlane {
-  Vec3 normal{0};  // n_t
+  Vec3 normal{0};     // n_t
   double offset = 0;  // d_t
 };
 
@@ -24,9 +24,9 @@ inline TrianglePlane plane_of(const Vec3 &a, const Vec3 &b, const Vec3 &c) {
 
 /// Sums over the triangles around a vertex.
 struct VolumeSums {
-  Vec3 normal{0};                                     // of n
-  double offset = 0;                                  // of d
-  Vec3 weighted{0};                                   // of d n
+  Vec3 normal{0};                                         // of n
+  double offset = 0;                                      // of d
+  Vec3 weighted{0};                                       // of d n
   double xx = 0, yy = 0, zz = 0, xy = 0, yz = 0, zx = 0;  // of n n^T
 
   void add(const TrianglePlane &p, double sign = 1) {
@@ -113,8 +113,8 @@ inline Vec3 optimize_shape(const VolumeSums &volume, const LinkSums &link) {
 }
 
 /// Where the edge of squared length `length2_e` collapses to. Volumes are of the third power of a length and shape of
-/// the first, so w_s(e) = lambda L(e)^2 is taken with volumes measured in units of L(e), which makes the result the same
-/// at every scale.
+/// the first, so w_s(e) = lambda L(e)^2 is taken with volumes measured in units of L(e), which makes the result the
+/// same at every scale.
 inline Vec3 place_vertex(const VolumeSums &volume, const LinkSums &link, double length2_e, double lambda) {
   const double weight = lambda * length2_e * length2_e;
   const SymmetricSolver solver(volume, weight * link.count);

@@ -17,15 +17,15 @@ constexpr std::size_t block = 512;
 /// The result's piecewise linear field.
 class Field {
  public:
-  Field(const TetMesh &mesh, Memory &memory) : mesh_(mesh), tree_(memory) {
-    Array<Box> boxes(mesh.tets.size(), &memory);
+  Field(const TetMesh &mesh, Job &job) : mesh_(mesh), tree_(job.memory) {
+    Array<Box> boxes(mesh.tets.size(), &job.memory);
     for (std::size_t t = 0; t < boxes.size(); t++) {
       for (std::int32_t v : mesh.tets[t]) boxes[t].add(mesh.points[std::size_t(v)]);
       const Vec3 margin = tolerance * (boxes[t].high - boxes[t].low);
       boxes[t].low -= margin;
       boxes[t].high += margin;
     }
-    tree_.build(std::move(boxes), 4);
+    tree_.build(std::move(boxes), 4, [&] { job.poll(0); });
   }
 
   bool value_at(const Vec3 &p, double &value) const {
@@ -118,7 +118,7 @@ void add_sample(const MeshView &mesh, std::size_t tet, std::uint64_t key, const 
 
 FieldError measure_error(const MeshView &original, double range, const TetMesh &result, int samples_per_tet,
                          std::uint64_t seed, Job &job) {
-  const Field field(result, job.memory);
+  const Field field(result, job);
   Array<std::uint8_t> used(original.points.size(), 0, &job.memory);
   for (const Tet &t : original.tets)
     for (std::int32_t v : t) used[std::size_t(v)] = 1;
@@ -138,9 +138,17 @@ FieldError measure_error(const MeshView &original, double range, const TetMesh &
 FieldError measure_error(const Input &input, const Options &options, const TetMesh &result, int samples_per_tet,
                          Job &job) {
   Original original(job.memory);
-  prepare_original(input, options.merge_tolerance, job, original);
-  return measure_error(original.view, original.scalar_max - original.scalar_min, result, samples_per_tet,
-                       std::uint64_t(options.seed), job);
+  prepare_original(input, options, job, original);
+  const auto measure = [&](const TetMesh &mesh) {
+    return measure_error(original.view, original.scalar_max - original.scalar_min, mesh, samples_per_tet,
+                         std::uint64_t(options.seed), job);
+  };
+  if (original.exponent == 0) return measure(result);
+  TetMesh scaled(job.memory);
+  scaled.scalars = result.scalars;
+  scaled.tets = result.tets;
+  for (const Vec3 &p : result.points) scaled.points.push_back(times_power_of_two(p, -original.exponent));
+  return measure(scaled);
 }
 
 void histogram(Span<const double> values, double low, double high, Span<std::int64_t> counts) {

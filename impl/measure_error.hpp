@@ -15,9 +15,10 @@ struct FieldError {
   double outside_inner = 0;
 };
 
-/// `range` of the values makes the errors relative (0: absolute). Every original vertex that a tet uses, and samples_per_tet random points in each original tet (uniform).
-FieldError measure_error(const MeshView &original, double range, const TetMesh &result, int samples_per_tet, std::uint64_t seed,
-                         Job &job);
+/// `range` of the values makes the errors relative (0: absolute). Every original vertex that a tet uses, and
+/// samples_per_tet random points in each original tet (uniform).
+FieldError measure_error(const MeshView &original, double range, const TetMesh &result, int samples_per_tet,
+                         std::uint64_t seed, Job &job);
 
 /// The same for the caller's arrays; the input is read again, as run() reads it.
 FieldError measure_error(const Input &input, const Options &options, const TetMesh &result, int samples_per_tet,

@@ -5,11 +5,14 @@
 
 #include "cull_samples.hpp"
 #include "extract_boundary.hpp"
+#include "find_crossing.hpp"
 #include "geometry.hpp"
 #include "interpolate.hpp"
 #include "prepare.hpp"
 #include "sample_interior.hpp"
+#include "status.hpp"
 #include "surface_topology.hpp"
+#include "validate.hpp"
 
 namespace tetlod {
 
@@ -37,20 +40,39 @@ class Pipeline {
   void run() {
     prepare();
     extract();
-    decimate();
     sample();
-    cull();
-    remesh();
+    double sigma = options_.sigma;
+    while (!simplify_with(sigma)) sigma = less_decimated(sigma);
     reconstruct_field();
   }
 
  private:
+  /// When TetGen finds no way with a boundary, one with more edges may have it; the last is the original's.
+  static double less_decimated(double sigma) { return std::min(std::max(2 * sigma, 0.1), 1.0); }
+
+  /// False: the boundary of this sigma cannot be remeshed, and one that is less decimated is left to try.
+  bool simplify_with(double sigma) {
+    decimate(sigma);
+    cull();
+    try {
+      remesh();
+      return true;
+    } catch (const Error &error) {
+      if (error.status() != Status::remesh || sigma >= 1) throw;
+      if (job_.log) job_.log(2, text("sigma %s: %s", number(sigma).c_str(), error.what()).c_str());
+      report_.boundary_retries++;
+      return false;
+    }
+  }
+
   void prepare() {
     const StageTimer timer(Stage::prepare, job_, report_);
-    prepare_original(input_, options_.merge_tolerance, job_, original_);
+    if (any_strict_policy(options_)) refuse_defects(find_defects(input_, options_, job_), options_);
+    prepare_original(input_, options_, job_, original_);
     report_.points_in = input_.xyz[0].tuples;
     report_.tets_in = input_.tets.tuples;
     report_.merged_points = original_.merged_points;
+    report_.nonfinite_points = original_.nonfinite_points;
     report_.dropped_tets = original_.dropped_tets;
     report_.scalar_min = original_.scalar_min;
     report_.scalar_max = original_.scalar_max;
@@ -59,26 +81,28 @@ class Pipeline {
   void extract() {
     const StageTimer timer(Stage::boundary, job_, report_);
     extract_boundary(original_.view, job_, boundary_);
-    make_surface(original_.view, boundary_.triangles, job_, surface_);
-    report_.dropped_tets += boundary_.flat_tets;
-    report_.unused_points = boundary_.unused_points - report_.merged_points;
+    report_.dropped_tets += boundary_.flat_tets + boundary_.duplicate_tets;
+    report_.unused_points = boundary_.unused_points - report_.merged_points - report_.nonfinite_points;
     report_.interior_points_in = std::int64_t(boundary_.interior.size());
     report_.boundary_triangles_in = std::int64_t(boundary_.triangles.size());
   }
 
-  void decimate() {
+  void decimate(double sigma) {
     const StageTimer timer(Stage::decimate, job_, report_);
-    {
-      SurfaceTopology topology(job_.memory);
-      find_topology(surface_.points, surface_.triangles, job_, topology);
-      report_.boundary_points_in = topology.used_points;
-      report_.boundary_edges_in = topology.edges;
-      report_.components = topology.components;
-      report_.nonmanifold_edges = topology.nonmanifold_edges;
-      report_.nonmanifold_points = topology.nonmanifold_points;
-      const DecimateOptions options{options_.sigma, options_.lambda, options_.clean_edges};
-      report_.cleaned_edges = decimate_boundary(surface_, topology, {}, options, job_).cleaned_edges;
-    }
+    Surface surface(job_.memory);
+    make_surface(original_.view, boundary_.triangles, job_, surface);
+    SurfaceTopology topology(job_.memory);
+    find_topology(surface.points, surface.triangles, job_, topology);
+    report_.boundary_points_in = topology.used_points;
+    report_.boundary_edges_in = topology.edges;
+    report_.components = topology.components;
+    report_.nonmanifold_edges = topology.nonmanifold_edges;
+    report_.nonmanifold_points = topology.nonmanifold_points;
+    const DecimateOptions options{sigma, options_.lambda, options_.clean_edges};
+    report_.cleaned_edges = decimate_boundary(surface, topology, {}, options, job_).cleaned_edges;
+    refuse_crossing(surface, input_.index_base, job_);
+    surface_ = std::move(surface);
+    topology_ = SurfaceTopology(job_.memory);
     find_topology(surface_.points, surface_.triangles, job_, topology_);
     report_.boundary_points_out = topology_.used_points;
     report_.boundary_edges_out = topology_.edges;
@@ -88,8 +112,8 @@ class Pipeline {
   void sample() {
     const StageTimer timer(Stage::sample, job_, report_);
     const double variation = options_.rho * (original_.scalar_max - original_.scalar_min);
-    sample_interior(original_.view, {boundary_.interior.data(), boundary_.interior.size()}, variation, job_, samples_);
-    report_.selected_samples = std::int64_t(samples_.size());
+    sample_interior(original_.view, {boundary_.interior.data(), boundary_.interior.size()}, variation, job_, selected_);
+    report_.selected_samples = std::int64_t(selected_.size());
   }
 
   void cull() {
@@ -97,6 +121,7 @@ class Pipeline {
     Box box;
     for (const Vec3 &p : surface_.points) box.add(p);
     const double diagonal = glm::length(box.high - box.low);
+    samples_ = selected_;
     const CullReport culled = cull_samples(original_.view.points, surface_, topology_, options_.min_distance * diagonal,
                                            options_.boundary_leaf, job_, samples_);
     report_.samples_outside = culled.outside;
@@ -131,6 +156,8 @@ class Pipeline {
     interpolate(original_.view, boundary_.triangles, steiner, options_.tet_leaf, job_, values);
     mesh_.scalars.insert(mesh_.scalars.end(), values.begin(), values.end());
     mesh_.points = std::move(remeshed_.points);
+    if (original_.exponent)
+      for (Vec3 &p : mesh_.points) p = times_power_of_two(p, original_.exponent);
     mesh_.tets = std::move(remeshed_.tets);
     mesh_.boundary = std::move(surface_.triangles);
     report_.points_out = std::int64_t(mesh_.points.size());
@@ -151,9 +178,10 @@ class Pipeline {
   Report &report_;
   Original original_{job_.memory};
   Boundary boundary_{job_.memory};
-  Surface surface_{job_.memory};           // the original boundary, then the simplified one
-  SurfaceTopology topology_{job_.memory};  // of the simplified boundary
-  Array<std::int32_t> samples_{&job_.memory};
+  Surface surface_{job_.memory};                // the simplified boundary
+  SurfaceTopology topology_{job_.memory};       // of the simplified boundary
+  Array<std::int32_t> selected_{&job_.memory};  // by sampling
+  Array<std::int32_t> samples_{&job_.memory};   // after culling
   RemeshResult remeshed_{job_.memory};
 };
 

@@ -12,6 +12,9 @@
 
 namespace tetlod {
 
+/// What happens to a defect of the input that can be repaired. The numbers are those of the C ABI.
+enum class Policy : std::int64_t { error = 0, repair = 1 };
+
 struct Options {
   double rho = 0.01;
   double sigma = 0.1;
@@ -24,6 +27,14 @@ struct Options {
   std::int64_t threads = 1;
   std::int64_t seed = 1;
   double time_limit = 0;
+  Policy on_coincident = Policy::repair;  ///< merge the points
+  Policy on_repeated = Policy::repair;    ///< drop the tets
+  Policy on_flat = Policy::repair;        ///< peel the tets off the boundary, keep them inside
+  Policy on_inverted = Policy::repair;    ///< take the tets the other way round
+  Policy on_duplicate = Policy::repair;   ///< drop the later tets
+  Policy on_overlap = Policy::repair;     ///< keep the tets: inside they do no harm
+  Policy on_unused = Policy::repair;      ///< ignore the points
+  Policy on_nonfinite = Policy::error;    ///< repair: ignore points without a finite value together with their tets
 };
 
 /// The caller's arrays: shapes, types and strides are sound, contents are not looked at yet.
@@ -37,14 +48,15 @@ struct Input {
 /// The rows of the paper's Table 2. Seconds by Stage.
 struct Report {
   std::int64_t points_in = 0, tets_in = 0;
-  std::int64_t merged_points = 0, dropped_tets = 0, unused_points = 0;
+  std::int64_t merged_points = 0, nonfinite_points = 0, dropped_tets = 0, unused_points = 0;
   std::int64_t interior_points_in = 0;
   std::int64_t boundary_points_in = 0, boundary_edges_in = 0, boundary_triangles_in = 0;
   std::int64_t components = 0, nonmanifold_edges = 0, nonmanifold_points = 0;
   std::int64_t cleaned_edges = 0;
   std::int64_t boundary_points_out = 0, boundary_edges_out = 0, boundary_triangles_out = 0;
   std::int64_t selected_samples = 0, samples_outside = 0, samples_too_near = 0, samples = 0;
-  std::int64_t steiner_points = 0, points_out = 0, tets_out = 0, remesh_attempts = 0;
+  std::int64_t steiner_points = 0, points_out = 0, tets_out = 0;
+  std::int64_t remesh_attempts = 0, boundary_retries = 0;
   std::array<double, std::size_t(Stage::count)> seconds{};
   double seconds_total = 0;
   std::uint64_t peak_bytes = 0, worker_peak_bytes = 0, hash = 0;

@@ -28,6 +28,7 @@ Span<const Vec3> read_points(const Input &input, Job &job, Array<Vec3> &copy) {
   job.parallel.for_blocks(count, block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; i++)
       for (int k = 0; k < 3; k++) copy[i][k] = input.xyz[std::size_t(k)].real(std::int64_t(i), 0);
+    job.poll(0);
   });
   return copy;
 }
@@ -39,6 +40,7 @@ Span<const double> read_scalars(const Input &input, Job &job, Array<double> &cop
   copy.resize(count);
   job.parallel.for_blocks(count, block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; i++) copy[i] = input.scalars.real(std::int64_t(i), 0);
+    job.poll(0);
   });
   return copy;
 }
@@ -91,6 +93,7 @@ Span<const Tet> read_tets(const Input &input, Job &job, Array<Tet> &copy) {
     for (std::size_t t = begin; t < end; t++)
       for (int k = 0; k < 4; k++)
         copy[t][std::size_t(k)] = std::int32_t(input.tets.integer(std::int64_t(t), k) - input.index_base);
+    job.poll(0.5);
   });
   return copy;
 }
@@ -99,38 +102,52 @@ bool has_repeated_vertex(const Tet &t) {
   return t[0] == t[1] || t[0] == t[2] || t[0] == t[3] || t[1] == t[2] || t[1] == t[3] || t[2] == t[3];
 }
 
-/// Marks the points that tets use and looks at their coordinates and values.
-Array<std::uint8_t> check_used_points(Original &original, int index_base, Job &job) {
+Array<std::uint8_t> find_used(Span<const Tet> tets, std::size_t points, Job &job) {
+  Array<std::uint8_t> used(points, 0, &job.memory);
+  for (std::size_t t = 0; t < tets.size(); t++) {
+    if (t % block == 0) job.poll(0.5);
+    for (std::int32_t v : tets[t]) used[std::size_t(v)] = 1;
+  }
+  return used;
+}
+
+/// Looks at the coordinates and values of the points that tets use. Points without a finite value are marked as not
+/// used, or refused.
+void check_used_points(const Input &input, const Options &options, Original &original, Array<std::uint8_t> &used) {
   const MeshView &mesh = original.view;
-  Array<std::uint8_t> used(mesh.points.size(), 0, &job.memory);
-  for (const Tet &t : mesh.tets)
-    for (std::int32_t v : t) used[std::size_t(v)] = 1;
   original.scalar_min = std::numeric_limits<double>::infinity();
   original.scalar_max = -original.scalar_min;
   for (std::size_t v = 0; v < used.size(); v++) {
     if (!used[v]) continue;
     for (int k = 0; k < 3; k++)
       if (!std::isfinite(mesh.points[v][k]))
-        fail(Status::mesh_nonfinite, "coordinate %c of vertex %zu is %s", "xyz"[k],
-             v + std::size_t(index_base), number(mesh.points[v][k]).c_str());
+        fail(Status::mesh_nonfinite, "coordinate %c of vertex %zu is %s", "xyz"[k], v + std::size_t(input.index_base),
+             number(mesh.points[v][k]).c_str());
     const double value = mesh.scalars[v];
-    if (!std::isfinite(value))
-      fail(Status::mesh_nonfinite, "the value of vertex %zu is %s", v + std::size_t(index_base), number(value).c_str());
+    if (!std::isfinite(value)) {
+      if (options.on_nonfinite == Policy::error)
+        fail(Status::mesh_nonfinite, "the value of vertex %zu is %s", v + std::size_t(input.index_base),
+             number(value).c_str());
+      used[v] = 0;
+      original.nonfinite_points++;
+      continue;
+    }
     original.scalar_min = std::min(original.scalar_min, value);
     original.scalar_max = std::max(original.scalar_max, value);
     original.box.add(mesh.points[v]);
   }
-  return used;
 }
 
-/// Renames merged vertices and leaves out the tets that have a vertex twice; the tets then are ours.
-void drop_and_rename(Span<const std::int32_t> representative, Job &job, Original &original) {
+/// Renames merged vertices and leaves out the tets that have a vertex twice or one that is not used; the tets then are
+/// ours.
+void drop_and_rename(Span<const std::int32_t> representative, Span<const std::uint8_t> used, Job &job,
+                     Original &original) {
   Array<Tet> kept(&job.memory);
   kept.reserve(original.view.tets.size());
   for (const Tet &t : original.view.tets) {
+    if (std::any_of(t.begin(), t.end(), [&](std::int32_t v) { return !used[std::size_t(v)]; })) continue;
     Tet renamed = t;
-    if (!representative.empty())
-      for (std::int32_t &v : renamed) v = representative[std::size_t(v)];
+    for (std::int32_t &v : renamed) v = representative[std::size_t(v)];
     if (!has_repeated_vertex(renamed)) kept.push_back(renamed);
   }
   original.dropped_tets = std::int64_t(original.view.tets.size() - kept.size());
@@ -138,11 +155,29 @@ void drop_and_rename(Span<const std::int32_t> representative, Job &job, Original
   original.view.tets = original.tets;
 }
 
+/// Products of six lengths must stay in the range of doubles; a power of two is exact.
+void scale_extreme_coordinates(Job &job, Original &original) {
+  constexpr int far_from_one = 100;
+  double most = 0;
+  for (int k = 0; k < 3; k++) most = std::max({most, std::abs(original.box.low[k]), std::abs(original.box.high[k])});
+  const int exponent = most > 0 ? std::ilogb(most) : 0;
+  if (std::abs(exponent) <= far_from_one) return;
+  original.exponent = exponent;
+  const auto scaled = [&](const Vec3 &p) { return times_power_of_two(p, -exponent); };
+  Array<Vec3> points(&job.memory);
+  points.reserve(original.view.points.size());
+  for (const Vec3 &p : original.view.points) points.push_back(scaled(p));
+  original.points = std::move(points);
+  original.view.points = original.points;
+  original.box = {scaled(original.box.low), scaled(original.box.high)};
+}
+
 bool any_repeated_vertex(Span<const Tet> tets, Job &job) {
   FirstCulprit culprit;
   job.parallel.for_blocks(tets.size(), block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; t++)
       if (has_repeated_vertex(tets[t])) culprit.report(t);
+    job.poll(0.9);
   });
   return culprit.any();
 }
@@ -162,21 +197,23 @@ void check_counts(const Input &input) {
 
 }  // namespace
 
-void prepare_original(const Input &input, double merge_tolerance, Job &job, Original &original) {
+void prepare_original(const Input &input, const Options &options, Job &job, Original &original) {
   check_counts(input);
   original.view.points = read_points(input, job, original.points);
   original.view.scalars = read_scalars(input, job, original.scalars);
   original.view.tets = read_tets(input, job, original.tets);
-  const Array<std::uint8_t> used = check_used_points(original, input.index_base, job);
+  Array<std::uint8_t> used = find_used(original.view.tets, original.view.points.size(), job);
+  check_used_points(input, options, original, used);
+  scale_extreme_coordinates(job, original);
 
   Array<std::int32_t> representative(&job.memory);
   const double diagonal = glm::length(original.box.high - original.box.low);
-  original.merged_points = merge_points(original.view.points, used, merge_tolerance * diagonal, job, representative);
-  if (original.merged_points == 0) representative.clear();
-  if (original.merged_points || any_repeated_vertex(original.view.tets, job))
-    drop_and_rename(representative, job, original);
+  original.merged_points =
+      merge_points(original.view.points, used, options.merge_tolerance * diagonal, job, representative);
+  if (original.merged_points || original.nonfinite_points || any_repeated_vertex(original.view.tets, job))
+    drop_and_rename(representative, used, job, original);
   if (original.view.tets.empty())
-    fail(Status::mesh_empty, "none of the %lld tets has four different vertices",
+    fail(Status::mesh_empty, "none of the %lld tets has four different vertices with a value",
          static_cast<long long>(input.tets.tuples));
 }
 

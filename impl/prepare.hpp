@@ -15,13 +15,16 @@ struct Original {
   Array<Vec3> points;
   Array<double> scalars;
   Array<Tet> tets;
-  std::int64_t merged_points = 0;  ///< coincident points that became one
-  std::int64_t dropped_tets = 0;   ///< with a repeated vertex, as submitted or after merging
+  std::int64_t merged_points = 0;     ///< coincident points that became one
+  std::int64_t nonfinite_points = 0;  ///< without a finite value, ignored with their tets
+  std::int64_t dropped_tets = 0;      ///< with such a point, or with a repeated vertex, as submitted or after merging
+  int exponent = 0;                   ///< the view's coordinates are the caller's divided by 2^exponent
   double scalar_min = 0, scalar_max = 0;  ///< over the vertices that tets use
   Box box;                                ///< of the vertices that tets use
 };
 
+/// Coordinates so large or small that their sixth powers leave the range of doubles are scaled, exactly.
 /// Throws Status::mesh_empty, mesh_index, mesh_nonfinite, mesh_too_large.
-void prepare_original(const Input &input, double merge_tolerance, Job &job, Original &original);
+void prepare_original(const Input &input, const Options &options, Job &job, Original &original);
 
 }  // namespace tetlod

@@ -8,6 +8,7 @@
 
 #include "geometry.hpp"
 #include "key_file.hpp"
+#include "predicates.hpp"
 #include "remesh_checks.hpp"
 #include "status.hpp"
 
@@ -244,12 +245,34 @@ void count_points(const Surface &surface, Span<const Vec3> samples, RemeshResult
   result.report.dropped_samples = std::int64_t(samples.size()) - used;
 }
 
+/// Positive in doubles, whichever of the three ways somebody multiplies the determinant out.
+bool looks_positive(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &d) {
+  const Vec3 u = b - a, v = c - a, w = d - a;
+  return glm::dot(glm::cross(u, v), w) > 0 && glm::dot(glm::cross(v, w), u) > 0 && glm::dot(glm::cross(w, u), v) > 0;
+}
+
+/// TetGen decides by exact signs, so that a tet in a thin plate may be flatter than doubles resolve. The order of its
+/// corners then decides how the determinant rounds: finds one that keeps the winding and looks positive.
+bool make_positive(Span<const Vec3> points, Tet &tet) {
+  constexpr std::size_t even[12][4] = {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}, {1, 0, 3, 2},
+                                       {1, 3, 2, 0}, {1, 2, 0, 3}, {2, 0, 1, 3}, {2, 1, 3, 0},
+                                       {2, 3, 0, 1}, {3, 0, 2, 1}, {3, 2, 1, 0}, {3, 1, 0, 2}};
+  const Tet old = tet;
+  const auto at = [&](std::int32_t corner) { return points[std::size_t(corner)]; };
+  for (const auto &order : even) {
+    for (std::size_t k = 0; k < 4; k++) tet[k] = old[order[k]];
+    if (looks_positive(at(tet[0]), at(tet[1]), at(tet[2]), at(tet[3])))
+      return tet == old || orientation(at(tet[0]), at(tet[1]), at(tet[2]), at(tet[3])) > 0;
+  }
+  return false;
+}
+
 /// On the points as they are handed out: those of TetGen's frame may have been rounded on the way back.
-std::string check_positive(Span<const Vec3> points, Span<const Tet> tets, double fraction, Job &job) {
+std::string make_all_positive(Span<const Vec3> points, Span<Tet> tets, double fraction, Job &job) {
   Array<std::size_t> bad((tets.size() + block - 1) / block, 0, &job.memory);
   job.parallel.for_blocks(tets.size(), block, [&](std::size_t begin, std::size_t end) {
     job.poll(fraction);
-    for (std::size_t i = begin; i < end; i++) bad[begin / block] += !(tet_det(points, tets[i]) > 0);
+    for (std::size_t i = begin; i < end; i++) bad[begin / block] += !make_positive(points, tets[i]);
   });
   const std::size_t count = std::accumulate(bad.begin(), bad.end(), std::size_t(0));
   return count ? text("%zu of %zu tets have no volume", count, tets.size()) : std::string();
@@ -264,11 +287,11 @@ std::string check_volume(Span<const Vec3> points, Span<const Tet> tets, Span<con
   return "the volume is " + number(volume / expected.value) + " of the boundary's";
 }
 
-std::string check_geometry(const Surface &surface, const RemeshResult &result, const Frame &frame, double fraction,
+std::string check_geometry(const Surface &surface, RemeshResult &result, const Frame &frame, double fraction,
                            Job &job) {
   Array<Vec3> points(result.points.size(), &job.memory);
   for (std::size_t i = 0; i < points.size(); i++) points[i] = frame.unit(result.points[i]);
-  const std::string wrong = check_positive(points, result.tets, fraction, job);
+  const std::string wrong = make_all_positive(points, {result.tets.data(), result.tets.size()}, fraction, job);
   return wrong.empty() ? check_volume(points, result.tets, surface.triangles, fraction, job) : wrong;
 }
 

@@ -25,10 +25,10 @@ class SamplingTree {
     while (!stack.empty()) {
       const Cell cell = stack.back();
       stack.pop_back();
+      job_.poll(double(cell.begin) / double(vertices_.size()));
       const Extremes extremes = extremes_of(cell);
       if (extremes.variation <= variation_) {
         samples.push_back(nearest_to_mean(cell));
-        job_.poll(double(cell.end) / double(vertices_.size()));
         continue;
       }
       const std::size_t middle = split(cell, extremes);

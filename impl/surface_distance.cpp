@@ -23,13 +23,12 @@ constexpr double four_pi = 12.566370614359172;
 
 }  // namespace
 
-NearestTriangle::NearestTriangle(Span<const Vec3> points, Span<const Triangle> triangles, std::int64_t leaf,
-                                 Memory &memory)
-    : points_(points), triangles_(triangles), tree_(memory) {
-  Array<Box> boxes(triangles.size(), &memory);
+NearestTriangle::NearestTriangle(Span<const Vec3> points, Span<const Triangle> triangles, std::int64_t leaf, Job &job)
+    : points_(points), triangles_(triangles), tree_(job.memory) {
+  Array<Box> boxes(triangles.size(), &job.memory);
   for (std::size_t t = 0; t < triangles.size(); t++)
     for (std::int32_t v : triangles[t]) boxes[t].add(points[std::size_t(v)]);
-  tree_.build(std::move(boxes), leaf);
+  tree_.build(std::move(boxes), leaf, [&] { job.poll(0); });
 }
 
 NearestPoint NearestTriangle::nearest(const Vec3 &p) const {
@@ -53,13 +52,13 @@ NearestPoint NearestTriangle::nearest(const Vec3 &p) const {
   return best;
 }
 
-SurfaceDistance::SurfaceDistance(const Surface &surface, const SurfaceTopology &topology, std::int64_t leaf,
-                                 Memory &memory)
+SurfaceDistance::SurfaceDistance(const Surface &surface, const SurfaceTopology &topology, std::int64_t leaf, Job &job)
     : surface_(surface),
       topology_(topology),
-      nearest_(surface.points, surface.triangles, leaf, memory),
-      vertex_normal_(topology.vertex_of.size(), Vec3(0), &memory) {
+      nearest_(surface.points, surface.triangles, leaf, job),
+      vertex_normal_(topology.vertex_of.size(), Vec3(0), &job.memory) {
   for (std::size_t t = 0; t < surface.triangles.size(); t++) {
+    if (t % 4096 == 0) job.poll(0);
     const Triangle &v = surface.triangles[t];
     const Vec3 normal = unit_normal(std::int32_t(t));
     for (std::size_t k = 0; k < 3; k++) {

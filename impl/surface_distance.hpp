@@ -18,7 +18,7 @@ struct NearestPoint {
 
 class NearestTriangle {
  public:
-  NearestTriangle(Span<const Vec3> points, Span<const Triangle> triangles, std::int64_t leaf, Memory &memory);
+  NearestTriangle(Span<const Vec3> points, Span<const Triangle> triangles, std::int64_t leaf, Job &job);
   NearestPoint nearest(const Vec3 &p) const;
   const Box &box() const { return tree_.box(); }
 
@@ -33,7 +33,7 @@ class NearestTriangle {
 /// meaning, and the winding number decides.
 class SurfaceDistance {
  public:
-  SurfaceDistance(const Surface &surface, const SurfaceTopology &topology, std::int64_t leaf, Memory &memory);
+  SurfaceDistance(const Surface &surface, const SurfaceTopology &topology, std::int64_t leaf, Job &job);
 
   /// Positive inside.
   double signed_distance(const Vec3 &p, NearestPoint &nearest) const;

@@ -46,15 +46,17 @@ class TopologyFinder {
     Array<std::int32_t> place(begin_, &job_.memory);
     for (std::int32_t h = 0; h < count; h++)
       sorted_[std::size_t(place[std::size_t(low_end(h))]++)] = {std::max(from(h), to(h)), h};
-    for (std::size_t v = 0; v < points_.size(); v++)
-      std::sort(sorted_.begin() + begin_[v], sorted_.begin() + begin_[v + 1], [](const HalfEdge &a, const HalfEdge &b) {
-        return a.high != b.high ? a.high < b.high : a.id < b.id;
-      });
+    for (std::size_t v = 0; v < points_.size(); v++) {
+      if (v % 16384 == 0) job_.poll(0);
+      std::sort(sorted_.begin() + begin_[v], sorted_.begin() + begin_[v + 1],
+                [](const HalfEdge &a, const HalfEdge &b) { return a.high != b.high ? a.high < b.high : a.id < b.id; });
+    }
   }
 
   template <class Visit>
   void for_each_edge(const Visit &visit) {
     for (std::size_t v = 0; v < points_.size(); v++) {
+      if (v % 16384 == 0) job_.poll(0);
       std::size_t i = std::size_t(begin_[v]);
       const std::size_t last = std::size_t(begin_[v + 1]);
       while (i < last) {
@@ -121,6 +123,7 @@ class TopologyFinder {
     out_.sheet_vertex.assign(corners, -1);
     Array<std::uint8_t> sheets(points_.size(), 0, &job_.memory);
     for (std::size_t c = 0; c < corners; c++) {
+      if (c % 65536 == 0) job_.poll(0);
       if (out_.sheet_vertex[c] >= 0) continue;
       const auto sheet = std::int32_t(out_.vertex_of.size());
       const std::int32_t v = from(std::int32_t(c));

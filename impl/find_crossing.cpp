@@ -1,0 +1,64 @@
+#include "find_crossing.hpp"
+
+#include <array>
+
+#include "kd_tree.hpp"
+#include "predicates.hpp"
+#include "status.hpp"
+
+namespace tetlod {
+
+namespace {
+
+constexpr std::size_t block = 256;
+
+std::array<Vec3, 3> corners(const Surface &surface, std::int32_t triangle) {
+  const Triangle &t = surface.triangles[std::size_t(triangle)];
+  return {surface.points[std::size_t(t[0])], surface.points[std::size_t(t[1])], surface.points[std::size_t(t[2])]};
+}
+
+bool cross(const Surface &surface, std::int32_t a, std::int32_t b) {
+  return !triangles_apart(corners(surface, a).data(), surface.triangles[std::size_t(a)], corners(surface, b).data(),
+                          surface.triangles[std::size_t(b)]);
+}
+
+long long origin(const Surface &surface, std::int32_t triangle, std::size_t k, std::int32_t index_base) {
+  return surface.origin[std::size_t(surface.triangles[std::size_t(triangle)][k])] + index_base;
+}
+
+}  // namespace
+
+std::pair<std::int32_t, std::int32_t> find_crossing(const Surface &surface, Job &job) {
+  Array<Box> boxes(surface.triangles.size(), &job.memory);
+  for (std::size_t t = 0; t < boxes.size(); t++)
+    for (const Vec3 &p : corners(surface, std::int32_t(t))) boxes[t].add(p);
+  KdTree tree(job.memory);
+  tree.build(Array<Box>(boxes, &job.memory), 4, [&] { job.poll(1); });
+  Array<std::int32_t> partner(boxes.size(), -1, &job.memory);
+  job.parallel.for_blocks(boxes.size(), block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; t++)
+      tree.any_overlap(boxes[t], [&](std::int32_t other) {
+        const auto self = std::int32_t(t);
+        if (other <= self || !cross(surface, self, other)) return false;
+        partner[t] = partner[t] < 0 ? other : std::min(partner[t], other);
+        return false;
+      });
+    job.poll(double(begin) / double(boxes.size()));
+  });
+  for (std::size_t t = 0; t < partner.size(); t++)
+    if (partner[t] >= 0) return {std::int32_t(t), partner[t]};
+  return {-1, -1};
+}
+
+void refuse_crossing(const Surface &surface, std::int32_t index_base, Job &job) {
+  const auto [a, b] = find_crossing(surface, job);
+  if (a < 0) return;
+  const auto at = [&, first = a, second = b](bool of_first, std::size_t k) {
+    return origin(surface, of_first ? first : second, k, index_base);
+  };
+  fail(Status::mesh_intersecting,
+       "the boundary crosses itself: its faces of vertices %lld, %lld, %lld and of vertices %lld, %lld, %lld meet",
+       at(true, 0), at(true, 1), at(true, 2), at(false, 0), at(false, 1), at(false, 2));
+}
+
+}  // namespace tetlod

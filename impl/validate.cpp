@@ -1,0 +1,262 @@
+#include "validate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "extract_boundary.hpp"
+#include "face_sweep.hpp"
+#include "geometry.hpp"
+#include "merge_points.hpp"
+#include "predicates.hpp"
+#include "status.hpp"
+#include "surface_topology.hpp"
+
+namespace tetlod {
+
+namespace {
+
+class Inspector {
+ public:
+  Inspector(const Input &input, const Options &options, Job &job)
+      : input_(input), options_(options), job_(job), base_(input.index_base) {}
+
+  Defects inspect() {
+    found_.points = input_.xyz[0].tuples;
+    found_.tets = input_.tets.tuples;
+    read_tets();
+    read_points();
+    merge();
+    sweep_faces();
+    look_at_tets();
+    look_at_boundary();
+    return found_;
+  }
+
+ private:
+  /// Keeps the tets whose vertices are there, with their numbers.
+  void read_tets() {
+    for (std::int64_t t = 0; t < found_.tets; t++) {
+      if (t % 65536 == 0) job_.poll(0);
+      Tet tet{};
+      bool sound = true;
+      for (int k = 0; k < 4; k++) {
+        const std::int64_t v = input_.tets.integer(t, k) - base_;
+        sound = sound && v >= 0 && v < found_.points;
+        tet[std::size_t(k)] = sound ? std::int32_t(v) : 0;
+      }
+      if (sound)
+        keep(tet, std::int32_t(t));
+      else
+        found_.index.add(t + base_);
+    }
+  }
+
+  void keep(const Tet &tet, std::int32_t number) {
+    tets_.push_back(tet);
+    number_.push_back(number);
+  }
+
+  void read_points() {
+    const auto count = std::size_t(found_.points);
+    points_.resize(count);
+    values_.assign(count, 0.0);
+    used_.assign(count, 0);
+    for (const Tet &t : tets_)
+      for (std::int32_t v : t) used_[std::size_t(v)] = 1;
+    for (std::size_t v = 0; v < count; v++) {
+      const std::int64_t name = std::int64_t(v) + base_;
+      for (int k = 0; k < 3; k++) points_[v][k] = input_.xyz[std::size_t(k)].real(std::int64_t(v), 0);
+      if (!used_[v]) {
+        found_.unused.add(name);
+      } else if (!finite(points_[v])) {
+        found_.nonfinite_points.add(name);
+        used_[v] = 0;
+      } else if (std::int64_t(v) < input_.scalars.tuples && !std::isfinite(input_.scalars.real(std::int64_t(v), 0))) {
+        found_.nonfinite_values.add(name);
+      }
+    }
+  }
+
+  static bool finite(const Vec3 &p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+
+  void merge() {
+    Box box;
+    for (std::size_t v = 0; v < points_.size(); v++)
+      if (used_[v]) box.add(points_[v]);
+    const double tolerance = options_.merge_tolerance * glm::length(box.high - box.low);
+    Array<std::int32_t> representative(&job_.memory);
+    merge_points(points_, used_, std::isfinite(tolerance) ? tolerance : 0, job_, representative);
+    for (std::size_t v = 0; v < points_.size(); v++)
+      if (representative[v] != std::int32_t(v)) found_.coincident.add(std::int64_t(v) + base_);
+    drop_tets([&](Tet &t, std::int64_t name) {
+      for (std::int32_t &v : t) {
+        if (!used_[std::size_t(v)]) return true;
+        v = representative[std::size_t(v)];
+      }
+      const bool repeated =
+          t[0] == t[1] || t[0] == t[2] || t[0] == t[3] || t[1] == t[2] || t[1] == t[3] || t[2] == t[3];
+      if (repeated) found_.repeated.add(name);
+      return repeated;
+    });
+  }
+
+  /// drop(tet, name) may change the tet that it keeps.
+  template <class Drop>
+  void drop_tets(const Drop &drop) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < tets_.size(); i++) {
+      if (drop(tets_[i], std::int64_t(number_[i]) + base_)) continue;
+      tets_[kept] = tets_[i];
+      number_[kept++] = number_[i];
+    }
+    tets_.resize(kept);
+    number_.resize(kept);
+  }
+
+  int side(const Tet &t) const {
+    return orientation(points_[std::size_t(t[0])], points_[std::size_t(t[1])], points_[std::size_t(t[2])],
+                       points_[std::size_t(t[3])]);
+  }
+
+  void look_at_tets() {
+    for (std::size_t i = 0; i < tets_.size(); i++) {
+      if (i % 65536 == 0) job_.poll(0.5);
+      const int sign = side(tets_[i]);
+      if (sign == 0) found_.flat.add(std::int64_t(number_[i]) + base_);
+      if (sign < 0) found_.inverted.add(std::int64_t(number_[i]) + base_);
+    }
+  }
+
+  /// Which tets are given twice comes first, so that the faces of the others can be judged.
+  void sweep_faces() {
+    Array<std::uint8_t> duplicate(tets_.size(), 0, &job_.memory);
+    for_each_face([&](const FaceUse *first, const FaceUse *last) {
+      for (const FaceUse *f = first + 1; f < last; f++)
+        if (std::any_of(first, f, [&](const FaceUse &e) { return opposite(e) == opposite(*f); }))
+          duplicate[f->tet()] = 1;
+    });
+    std::size_t i = 0;
+    drop_tets([&](const Tet &, std::int64_t name) {
+      if (duplicate[i]) found_.duplicate.add(name);
+      return duplicate[i++] != 0;
+    });
+    for_each_face([&](const FaceUse *first, const FaceUse *last) {
+      const std::int64_t name = std::int64_t(number_[first->tet()]) + base_;
+      if (last - first == 1) found_.boundary_triangles++;
+      if (last - first > 2) found_.nonmanifold_faces.add(name);
+      if (last - first == 2 && overlap(first[0], first[1])) found_.overlapping.add(name);
+    });
+  }
+
+  /// Alone: the visits count into one place.
+  template <class Visit>
+  void for_each_face(const Visit &visit) {
+    if (tets_.empty()) return;
+    const Parallel alone(1);
+    Job job(job_.memory, alone);
+    job.cancel = job_.cancel;
+    const MeshView mesh{points_, values_, tets_};
+    FaceSweep(mesh, {}, job).visit([&](std::size_t, std::int32_t, const FaceUse *first, const FaceUse *last) {
+      visit(first, last);
+    });
+  }
+
+  std::int32_t opposite(const FaceUse &f) const { return tets_[f.tet()][f.corner()]; }
+
+  /// Both tets on one side of their face.
+  bool overlap(const FaceUse &a, const FaceUse &b) const {
+    const Tet &t = tets_[a.tet()];
+    const int *face = tet_face[a.corner()];
+    const auto side_of = [&](std::int32_t v) {
+      return orientation(points_[std::size_t(t[std::size_t(face[0])])], points_[std::size_t(t[std::size_t(face[1])])],
+                         points_[std::size_t(t[std::size_t(face[2])])], points_[std::size_t(v)]);
+    };
+    const int first = side_of(opposite(a));
+    return first != 0 && first == side_of(opposite(b));
+  }
+
+  /// Only where it can be made out: a face with three tets, or a boundary that overlaps itself, has no answer here.
+  void look_at_boundary() {
+    if (found_.nonmanifold_faces.count || tets_.empty()) return;
+    const MeshView mesh{points_, values_, tets_};
+    try {
+      Boundary boundary(job_.memory);
+      extract_boundary(mesh, job_, boundary);
+      Surface surface(job_.memory);
+      make_surface(mesh, boundary.triangles, job_, surface);
+      SurfaceTopology topology(job_.memory);
+      find_topology(surface.points, surface.triangles, job_, topology);
+      found_.components = topology.components;
+      found_.nonmanifold_edges = {topology.nonmanifold_edges, -1};
+      found_.nonmanifold_points = {topology.nonmanifold_points, -1};
+      name_first_touching(surface, topology);
+    } catch (const Error &error) {
+      if (error.status() < Status::mesh_empty) throw;
+    }
+  }
+
+  void name_first_touching(const Surface &surface, const SurfaceTopology &topology) {
+    std::int64_t first = -1;
+    for (std::size_t i = 0; i < surface.points.size(); i++)
+      if (topology.touching[i] && (first < 0 || surface.origin[i] + base_ < first)) first = surface.origin[i] + base_;
+    if (found_.nonmanifold_edges.count) found_.nonmanifold_edges.first = first;
+    if (found_.nonmanifold_points.count) found_.nonmanifold_points.first = first;
+  }
+
+  const Input &input_;
+  const Options &options_;
+  Job &job_;
+  std::int64_t base_;
+  Defects found_;
+  Array<Tet> tets_{&job_.memory};
+  Array<std::int32_t> number_{&job_.memory};
+  Array<Vec3> points_{&job_.memory};
+  Array<double> values_{&job_.memory};
+  Array<std::uint8_t> used_{&job_.memory};
+};
+
+/// The classes that a policy governs, in the order in which they are refused.
+struct Rule {
+  Defect Defects::*defect;
+  Policy Options::*policy;
+  Status status;
+  const char *what;
+};
+
+constexpr Rule rules[] = {
+    {&Defects::repeated, &Options::on_repeated, Status::mesh_degenerate, "tets have a vertex twice, the first is tet"},
+    {&Defects::nonfinite_values, &Options::on_nonfinite, Status::mesh_nonfinite,
+     "points have no finite value, the first is point"},
+    {&Defects::coincident, &Options::on_coincident, Status::mesh_degenerate,
+     "points coincide with an earlier one, the first is point"},
+    {&Defects::duplicate, &Options::on_duplicate, Status::mesh_intersecting,
+     "tets have the vertices of an earlier one, the first is tet"},
+    {&Defects::flat, &Options::on_flat, Status::mesh_degenerate, "tets have no volume, the first is tet"},
+    {&Defects::inverted, &Options::on_inverted, Status::mesh_degenerate, "tets are inverted, the first is tet"},
+    {&Defects::overlapping, &Options::on_overlap, Status::mesh_intersecting,
+     "faces have both their tets on one side, the first is of tet"},
+    {&Defects::unused, &Options::on_unused, Status::mesh_degenerate, "points are in no tet, the first is point"},
+};
+
+}  // namespace
+
+Defects find_defects(const Input &input, const Options &options, Job &job) {
+  return Inspector(input, options, job).inspect();
+}
+
+void refuse_defects(const Defects &defects, const Options &options) {
+  for (const Rule &rule : rules) {
+    const Defect &defect = defects.*rule.defect;
+    if (defect.count && options.*rule.policy == Policy::error)
+      fail(rule.status, "%lld %s %lld", static_cast<long long>(defect.count), rule.what,
+           static_cast<long long>(defect.first));
+  }
+}
+
+bool any_strict_policy(const Options &options) {
+  return std::any_of(std::begin(rules), std::end(rules), [&](const Rule &rule) {
+    return rule.policy != &Options::on_nonfinite && options.*rule.policy == Policy::error;
+  });
+}
+
+}  // namespace tetlod
