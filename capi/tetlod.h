@@ -24,10 +24,13 @@
  *              the library: please report the message).
  *   Threads    A context is used by one thread at a time; different contexts by different threads at the same time.
  *              tetlod_cancel() alone may be called from another thread. Callbacks are called on the thread that called
- *              the library, and must not call it with the same context (but for tetlod_cancel).
- *   Memory     Submitted arrays are borrowed: they are read during tetlod_run() and tetlod_measure_error(), never
- *              written, and must live, unchanged in place and shape, until the same slot is submitted again,
- *              tetlod_clear(), or tetlod_destroy(). Only the bytes that an array describes are read or written.
+ *              the library, in the host's floating-point state, and must not call it with the same context (but for
+ *              tetlod_cancel): that is TETLOD_ERR_STATE, and tetlod_destroy is ignored. A C++ exception that leaves
+ *              one ends the run with TETLOD_ERR_CANCELLED.
+ *   Memory     Submitted arrays are borrowed: they are read during tetlod_run(), tetlod_measure_error() and
+ *              tetlod_histogram(), never written, and must live, unchanged in place and shape, until the same slot is
+ *              submitted again, tetlod_clear(), or tetlod_destroy(). Only the bytes that an array describes are read
+ *              or written.
  *   Host       The library never prints, exits, aborts, installs signal handlers, or touches rand(), the locale, the
  *              floating-point state or the environment, and no C++ exception leaves it. TetGen runs in a process of
  *              its own, tetlod-remesh; whatever happens to it is a status here.
@@ -96,7 +99,7 @@ enum { TETLOD_INT32 = 1, TETLOD_INT64 = 2, TETLOD_FLOAT32 = 3, TETLOD_FLOAT64 = 
  *     (char *)data + i * tuple_stride + c * component_stride
  * so that interleaved (x y z x y z), separate (x x y y z z) and Fortran arrays, and sections of larger arrays, are used
  * in place. Strides are in bytes, may be negative, and are multiples of the element's alignment; 0 means packed:
- * component_stride the element's size, tuple_stride components times that. */
+ * component_stride the element's size, tuple_stride components times the element's size. */
 typedef struct tetlod_array {
   uint32_t struct_size; /* sizeof(tetlod_array) */
   int32_t type;         /* TETLOD_INT32, ... */

@@ -1,0 +1,174 @@
+// What the C++ tests of the ABI share: a mesh, a context that ends with its scope, a result as bytes, an allocator that
+// counts and fails on demand.
+#pragma once
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "tetlod.h"
+
+namespace tetlod_test {
+
+/// The unit cube as n x n x n cells of 6 tets, with a field that bends.
+struct Cube {
+  explicit Cube(int n) {
+    const auto number = [n](int x, int y, int z) { return std::int32_t((z * (n + 1) + y) * (n + 1) + x); };
+    for (int z = 0; z <= n; z++)
+      for (int y = 0; y <= n; y++)
+        for (int x = 0; x <= n; x++) {
+          xyz.insert(xyz.end(), {double(x) / n, double(y) / n, double(z) / n});
+          values.push_back(double(x * x + 2 * y + z * y) / n);
+        }
+    static constexpr int order[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
+    for (int z = 0; z < n; z++)
+      for (int y = 0; y < n; y++)
+        for (int x = 0; x < n; x++)
+          for (const auto &axes : order) {
+            std::array<int, 3> at = {x, y, z};
+            corners.push_back(number(at[0], at[1], at[2]));
+            for (int axis : axes) {
+              at[std::size_t(axis)]++;
+              corners.push_back(number(at[0], at[1], at[2]));
+            }
+          }
+  }
+  std::vector<double> xyz, values;
+  std::vector<std::int32_t> corners;
+};
+
+inline tetlod_array array_of(std::int32_t type, std::size_t tuples, std::int32_t components, const void *data) {
+  tetlod_array array{};
+  array.struct_size = sizeof array;
+  array.type = type;
+  array.tuples = std::int64_t(tuples);
+  array.components = components;
+  array.data = const_cast<void *>(data);
+  return array;
+}
+
+inline std::string message_of(const tetlod_context *context) {
+  std::string message(tetlod_last_message(context, nullptr, 0), '\0');
+  tetlod_last_message(context, message.data(), message.size() + 1);
+  return message;
+}
+
+inline tetlod_config default_config() {
+  tetlod_config config{};
+  config.struct_size = sizeof config;
+  config.api_version = TETLOD_API_VERSION;
+  return config;
+}
+
+struct Destroy {
+  void operator()(tetlod_context *context) const { tetlod_destroy(context); }
+};
+using Context = std::unique_ptr<tetlod_context, Destroy>;
+
+inline Context make_context(const tetlod_config &config = default_config()) {
+  tetlod_context *context = nullptr;
+  EXPECT_EQ(tetlod_create(&config, &context), TETLOD_OK) << message_of(nullptr);
+  return Context(context);
+}
+
+inline void submit(tetlod_context *context, const Cube &cube) {
+  const std::size_t points = cube.values.size();
+  const tetlod_array xyz = array_of(TETLOD_FLOAT64, points, 3, cube.xyz.data());
+  const tetlod_array tets = array_of(TETLOD_INT32, cube.corners.size() / 4, 4, cube.corners.data());
+  const tetlod_array values = array_of(TETLOD_FLOAT64, points, 1, cube.values.data());
+  EXPECT_EQ(tetlod_submit_points(context, &xyz), TETLOD_OK);
+  EXPECT_EQ(tetlod_submit_tets(context, &tets, 0), TETLOD_OK);
+  EXPECT_EQ(tetlod_submit_scalars(context, "bent", &values), TETLOD_OK);
+}
+
+/// Points, tets and values of the last result, as they lie in memory.
+inline std::vector<unsigned char> bytes_of(const tetlod_context *context) {
+  std::vector<unsigned char> bytes;
+  for (const auto view : {tetlod_view_points, tetlod_view_tets, tetlod_view_scalars}) {
+    tetlod_array array{};
+    array.struct_size = sizeof array;
+    if (view(context, &array) != TETLOD_OK) return {};
+    const auto *const data = static_cast<const unsigned char *>(array.data);
+    bytes.insert(bytes.end(), data, data + array.tuples * array.tuple_stride);
+  }
+  return bytes;
+}
+
+/// What a run of this mesh gives in an undisturbed context.
+inline std::vector<unsigned char> undisturbed(const Cube &cube) {
+  const Context context = make_context();
+  submit(context.get(), cube);
+  EXPECT_EQ(tetlod_run(context.get()), TETLOD_OK) << message_of(context.get());
+  std::vector<unsigned char> bytes = bytes_of(context.get());
+  EXPECT_FALSE(bytes.empty());
+  return bytes;
+}
+
+/// Hooks for tetlod_config. Each block remembers what it was asked as, to be compared when it is released.
+class CountingAllocator {
+ public:
+  tetlod_config config() {
+    tetlod_config config = default_config();
+    config.allocate = [](void *user, std::size_t bytes, std::size_t alignment) {
+      return static_cast<CountingAllocator *>(user)->allocate(bytes, alignment);
+    };
+    config.release = [](void *user, void *pointer, std::size_t bytes, std::size_t alignment) {
+      static_cast<CountingAllocator *>(user)->release(pointer, bytes, alignment);
+    };
+    config.allocator_user = this;
+    return config;
+  }
+
+  /// The allocation after `count` others fails, once; negative: none.
+  void fail_after(long count) { left_ = count; }
+  bool failed() const { return failed_; }
+  void forget_failure() { failed_ = false, left_ = -1; }
+  std::size_t in_use() const { return in_use_; }
+  long mismatches() const { return mismatches_; }
+
+ private:
+  struct Head {
+    std::size_t bytes, alignment;
+  };
+
+  static std::size_t room(std::size_t alignment) { return std::max(alignment, sizeof(Head)); }
+
+  void *allocate(std::size_t bytes, std::size_t alignment) {
+    if (left_ >= 0 && left_-- == 0) {
+      failed_ = true;
+      return nullptr;
+    }
+    const std::size_t head = room(alignment);
+    auto *const block = static_cast<unsigned char *>(
+        ::operator new(bytes + head, std::align_val_t(std::max(alignment, alignof(Head))), std::nothrow));
+    if (!block) return nullptr;
+    const Head asked{bytes, alignment};
+    std::memcpy(block, &asked, sizeof asked);
+    in_use_ += bytes;
+    return block + head;
+  }
+
+  void release(void *pointer, std::size_t bytes, std::size_t alignment) {
+    unsigned char *const block = static_cast<unsigned char *>(pointer) - room(alignment);
+    Head asked;
+    std::memcpy(&asked, block, sizeof asked);
+    if (asked.bytes != bytes || asked.alignment != alignment) mismatches_++;
+    in_use_ -= bytes;
+    ::operator delete(block, std::align_val_t(std::max(alignment, alignof(Head))));
+  }
+
+  std::atomic<long> left_{-1};
+  std::atomic<bool> failed_{false};
+  std::atomic<std::size_t> in_use_{0};
+  std::atomic<long> mismatches_{0};
+};
+
+}  // namespace tetlod_test

@@ -1,0 +1,94 @@
+// Contexts side by side, threads inside one, and one context in the hands of two threads.
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+#include "fixtures.hpp"
+
+namespace tetlod_test {
+namespace {
+
+TEST(Threads, EachWithAContextOfItsOwn) {
+  const Cube small(4), large(7);
+  const auto wanted_small = undisturbed(small), wanted_large = undisturbed(large);
+  std::atomic<int> wrong{0};
+  std::vector<std::thread> threads;
+  for (int t = 0; t < 8; t++)
+    threads.emplace_back([&, t] {
+      const Context context = make_context();
+      tetlod_set_int(context.get(), TETLOD_OPT_THREADS, 1 + t % 3);
+      for (int i = 0; i < 3; i++) {
+        const bool odd = (t + i) % 2 != 0;
+        submit(context.get(), odd ? small : large);
+        if (tetlod_run(context.get()) != TETLOD_OK || bytes_of(context.get()) != (odd ? wanted_small : wanted_large))
+          wrong++;
+      }
+    });
+  for (std::thread &thread : threads) thread.join();
+  EXPECT_EQ(wrong, 0);
+}
+
+TEST(Threads, TheirNumberDoesNotMatter) {
+  const Cube cube(9);
+  const auto wanted = undisturbed(cube);
+  const Context context = make_context();
+  submit(context.get(), cube);
+  for (std::int64_t threads : {2, 3, 8, 0, 1}) {
+    ASSERT_EQ(tetlod_set_int(context.get(), TETLOD_OPT_THREADS, threads), TETLOD_OK);
+    ASSERT_EQ(tetlod_run(context.get()), TETLOD_OK) << message_of(context.get());
+    EXPECT_EQ(bytes_of(context.get()), wanted) << threads << " threads";
+    tetlod_run_report report{};
+    report.struct_size = sizeof report;
+    tetlod_fetch_report(context.get(), &report);
+    const std::int64_t cores = std::max(1u, std::thread::hardware_concurrency());
+    EXPECT_EQ(report.threads, threads ? std::min(threads, cores) : cores);
+  }
+}
+
+TEST(Threads, AContextMayMoveBetweenThem) {
+  const Cube cube(4);
+  Context context;
+  std::thread([&] { context = make_context(); }).join();
+  std::thread([&] { submit(context.get(), cube); }).join();
+  std::thread([&] { EXPECT_EQ(tetlod_run(context.get()), TETLOD_OK); }).join();
+  EXPECT_EQ(bytes_of(context.get()), undisturbed(cube));
+  std::thread([&] { context.reset(); }).join();
+}
+
+struct Intruder {
+  tetlod_context *context;
+  bool done = false;
+  static std::int32_t progress(void *user, std::int32_t, double) {
+    auto &self = *static_cast<Intruder *>(user);
+    if (!self.done) std::thread([&] { self.intrude(); }).join();
+    self.done = true;
+    return 0;
+  }
+  void intrude() const {
+    EXPECT_EQ(tetlod_run(context), TETLOD_ERR_STATE);
+    EXPECT_EQ(message_of(context), "the context is in use by another thread");
+    tetlod_destroy(context);
+  }
+};
+
+TEST(Threads, ASecondOneInTheSameContextIsRefused) {
+  const Cube cube(4);
+  const Context context = make_context();
+  submit(context.get(), cube);
+  Intruder intruder{context.get()};
+  tetlod_set_progress(context.get(), Intruder::progress, &intruder);
+  EXPECT_EQ(tetlod_run(context.get()), TETLOD_OK) << message_of(context.get());
+  EXPECT_TRUE(intruder.done);
+  EXPECT_EQ(message_of(context.get()), "") << "the intruder's message went to the intruder";
+}
+
+TEST(Threads, MessagesWithoutAContextAreTheThreads) {
+  EXPECT_EQ(tetlod_create(nullptr, nullptr), TETLOD_ERR_ARGUMENT);
+  const std::string own = message_of(nullptr);
+  EXPECT_NE(own, "");
+  std::thread([] { EXPECT_EQ(message_of(nullptr), ""); }).join();
+  EXPECT_EQ(message_of(nullptr), own);
+}
+
+}  // namespace
+}  // namespace tetlod_test
