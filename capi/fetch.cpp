@@ -58,6 +58,7 @@ tetlod_run_report report_of(const Outcome &outcome) {
   to.points_in = from.points_in;
   to.tets_in = from.tets_in;
   to.merged_points = from.merged_points;
+  to.nonfinite_points = from.nonfinite_points;
   to.dropped_tets = from.dropped_tets;
   to.unused_points = from.unused_points;
   to.interior_points_in = from.interior_points_in;
@@ -79,6 +80,7 @@ tetlod_run_report report_of(const Outcome &outcome) {
   to.points_out = from.points_out;
   to.tets_out = from.tets_out;
   to.remesh_attempts = from.remesh_attempts;
+  to.boundary_retries = from.boundary_retries;
   to.seconds_prepare = seconds(Stage::prepare);
   to.seconds_boundary = seconds(Stage::boundary);
   to.seconds_decimate = seconds(Stage::decimate);

@@ -33,6 +33,14 @@ constexpr Option option_table[] = {
     {TETLOD_OPT_THREADS, "threads", nullptr, &Options::threads, 0, 1024, false},
     {TETLOD_OPT_SEED, "seed", nullptr, &Options::seed, 0, two_to_53, false},
     {TETLOD_OPT_TIME_LIMIT, "time-limit", &Options::time_limit, nullptr, 0, 1e9, false},
+    {TETLOD_OPT_ON_COINCIDENT, "on-coincident", nullptr, &Options::on_coincident, 0, 1, false},
+    {TETLOD_OPT_ON_REPEATED, "on-repeated", nullptr, &Options::on_repeated, 0, 1, false},
+    {TETLOD_OPT_ON_FLAT, "on-flat", nullptr, &Options::on_flat, 0, 1, false},
+    {TETLOD_OPT_ON_INVERTED, "on-inverted", nullptr, &Options::on_inverted, 0, 1, false},
+    {TETLOD_OPT_ON_DUPLICATE, "on-duplicate", nullptr, &Options::on_duplicate, 0, 1, false},
+    {TETLOD_OPT_ON_OVERLAP, "on-overlap", nullptr, &Options::on_overlap, 0, 1, false},
+    {TETLOD_OPT_ON_UNUSED, "on-unused", nullptr, &Options::on_unused, 0, 1, false},
+    {TETLOD_OPT_ON_NONFINITE, "on-nonfinite", nullptr, &Options::on_nonfinite, 0, 1, false},
 };
 
 const Option *find(std::int32_t number) noexcept {

@@ -1,27 +1,15 @@
 // Running, and what is asked about a run while its input is still there.
-#include <tbb/global_control.h>
-
 #include <algorithm>
 #include <cinttypes>
-#include <thread>
 
 #include "arguments.hpp"
 #include "context.hpp"
 #include "measure_error.hpp"
+#include "work.hpp"
 
 namespace tetlod::capi {
 
 namespace {
-
-void require_submitted(const StridedArray &array, const char *name) {
-  if (!array.present) fail(Status::state, "no %s are submitted", name);
-}
-
-void require_submitted(const Input &input) {
-  require_submitted(input.xyz[0], "points");
-  require_submitted(input.tets, "tets");
-  require_submitted(input.scalars, "scalars");
-}
 
 void require_a_value_a_point(const tetlod_context &context) {
   const std::int64_t points = context.input.xyz[0].tuples, values = context.input.scalars.tuples;
@@ -45,54 +33,6 @@ bool same(const Input &a, const Input &b) {
 void require_input_of(const Outcome &outcome, const Input &input) {
   require_submitted(input);
   if (!same(outcome.input, input)) fail(Status::state, "the arrays of the last run are not submitted any more");
-}
-
-/// Not more than oneTBB would give: it prints a warning when it is asked for more.
-int threads_of(const Options &options) {
-  const std::size_t wanted = options.threads ? std::size_t(options.threads) : std::thread::hardware_concurrency();
-  if (wanted <= 1) return 1;
-  return int(std::min(wanted, tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)));
-}
-
-void renew_arena(tetlod_context &context) {
-  const int threads = threads_of(context.options);
-  if (context.parallel.threads() != threads) context.parallel = Parallel(threads);
-}
-
-/// The run that begins here is the one that tetlod_cancel means.
-void begin(tetlod_context &context) {
-  context.cancel.store(false, std::memory_order_relaxed);
-  context.callback_failure.set("");
-  context.memory.reset_peak();
-  renew_arena(context);
-}
-
-bool host_cancels(tetlod_context &context, Stage stage, double fraction) {
-  std::int32_t answer = 0;
-  const bool returned = call_host(*context.host, context.callback_failure, "progress", [&] {
-    answer = context.progress.call(context.progress.user, std::int32_t(stage), fraction);
-  });
-  return !returned || answer != 0;
-}
-
-/// A log callback that throws cannot be thrown through (it may be told things while others clean up): the run ends at
-/// its next poll.
-void log_to_host(tetlod_context &context, int level, const char *message) {
-  if (level < context.log.least || context.caller.load() != &thread_message()) return;
-  const bool returned = call_host(*context.host, context.callback_failure, "log",
-                                  [&] { context.log.call(context.log.user, level, message); });
-  if (!returned) context.cancel.store(true, std::memory_order_relaxed);
-}
-
-void connect_log(Job &job, tetlod_context &context) {
-  job.cancel = &context.cancel;
-  if (context.log.call) job.log = [&context](int level, const char *message) { log_to_host(context, level, message); };
-}
-
-void connect_progress(Job &job, tetlod_context &context) {
-  job.time_limit = context.options.time_limit;
-  if (context.progress.call)
-    job.progress = [&context](Stage stage, double fraction) { return host_cancels(context, stage, fraction); };
 }
 
 std::unique_ptr<Outcome> fresh_outcome(tetlod_context &context) {

@@ -121,10 +121,10 @@ typedef struct tetlod_config {
   void *(*allocate)(void *user, size_t bytes, size_t alignment);
   void (*release)(void *user, void *pointer, size_t bytes, size_t alignment);
   void *allocator_user;
-  uint64_t memory_limit; /* bytes that tetlod may have in use at once in the host, and, apart from that, bytes of address
-                            space of tetlod-remesh; 0: no limit */
-  const char *remesher;  /* path of tetlod-remesh; NULL: the environment's TETLOD_REMESHER (not for setuid programs), else
-                            beside the library, else libexec/tetlod. Copied. */
+  uint64_t memory_limit; /* bytes that tetlod may have in use at once in the host, and, apart from that, bytes of
+                            address space of tetlod-remesh; 0: no limit */
+  const char *remesher;  /* path of tetlod-remesh; NULL: the environment's TETLOD_REMESHER (not for setuid programs),
+                            else  beside the library, else libexec/tetlod. Copied. */
 } tetlod_config;
 
 /* What the last successful tetlod_run did: the rows of the paper's Table 2 [4]. Seconds are wall-clock. */
@@ -133,9 +133,11 @@ typedef struct tetlod_run_report {
   int32_t threads;
   /* the original */
   int64_t points_in, tets_in;
-  int64_t merged_points;  /* coincident points that became one */
-  int64_t dropped_tets;   /* tets without volume: a repeated vertex (as submitted or after merging) */
-  int64_t unused_points;  /* points that no tet uses */
+  int64_t merged_points;    /* coincident points that became one */
+  int64_t nonfinite_points; /* without a finite value, ignored with their tets (TETLOD_OPT_ON_NONFINITE) */
+  int64_t dropped_tets;     /* with such a point, with a vertex twice (as submitted or after merging), duplicates, and
+                               tets of the boundary without volume */
+  int64_t unused_points;    /* points that no tet uses */
   int64_t interior_points_in;
   int64_t boundary_points_in, boundary_edges_in, boundary_triangles_in;
   int64_t components; /* of the boundary surface: solids and cavities */
@@ -148,12 +150,13 @@ typedef struct tetlod_run_report {
   int64_t samples;                           /* what is left */
   int64_t steiner_points;                    /* added by the remeshing [3.4] */
   int64_t points_out, tets_out;
-  int64_t remesh_attempts; /* 1: TetGen succeeded at once */
+  int64_t remesh_attempts;  /* calls of TetGen for the boundary that was accepted; 1: it succeeded at once */
+  int64_t boundary_retries; /* how often the boundary had to be decimated less, because TetGen failed on it */
   double seconds_prepare, seconds_boundary, seconds_decimate, seconds_sample, seconds_cull, seconds_remesh,
       seconds_values, seconds_total;
-  uint64_t peak_bytes;        /* of tetlod in the host, the result included, the caller's arrays not */
-  uint64_t worker_peak_bytes; /* of tetlod-remesh */
-  uint64_t hash;              /* of the result's bytes */
+  uint64_t peak_bytes;           /* of tetlod in the host, the result included, the caller's arrays not */
+  uint64_t worker_peak_bytes;    /* of tetlod-remesh */
+  uint64_t hash;                 /* of the result's bytes */
   double scalar_min, scalar_max; /* of the original's values */
 } tetlod_run_report;
 
@@ -167,6 +170,35 @@ typedef struct tetlod_error_report {
   double rms_inner, max_inner; /* at samples inside the original tets */
   double outside_inner;        /* share of those samples that lie outside the result */
 } tetlod_error_report;
+
+/* A class of defects of a mesh: how many, and the first culprit, numbered from the index base of the submitted tets;
+ * -1 when there is none. */
+typedef struct tetlod_defect {
+  int64_t count, first;
+} tetlod_defect;
+
+/* What tetlod_check found. */
+typedef struct tetlod_mesh_report {
+  uint32_t struct_size; /* set by the caller; at most this many bytes are written */
+  tetlod_status status; /* what tetlod_run would say of the mesh, with the options as they are, before remeshing */
+  int64_t points, tets;
+  int64_t boundary_triangles;      /* faces used once */
+  int64_t components;              /* of the boundary surface; 0 where it cannot be made out */
+  tetlod_defect index;             /* tets that name a vertex that the mesh does not have */
+  tetlod_defect repeated;          /* tets with a vertex twice, also after merging */
+  tetlod_defect nonfinite_points;  /* used points with a coordinate that is not finite */
+  tetlod_defect nonfinite_values;  /* used points with a value that is not finite */
+  tetlod_defect coincident;        /* points that coincide with an earlier one (TETLOD_OPT_MERGE_TOLERANCE) */
+  tetlod_defect flat;              /* tets without volume */
+  tetlod_defect inverted;          /* tets with a negative determinant */
+  tetlod_defect duplicate;         /* tets with the four vertices of an earlier one */
+  tetlod_defect nonmanifold_faces; /* faces with more than two tets; first: a tet */
+  tetlod_defect overlapping;       /* faces with both their tets on one side; first: a tet */
+  tetlod_defect unused;            /* points that no tet uses */
+  tetlod_defect
+      nonmanifold_edges; /* boundary edges with more than two faces: the solid touches itself; first: a point */
+  tetlod_defect nonmanifold_points; /* boundary points where the solid touches itself */
+} tetlod_mesh_report;
 
 /* Smallest, largest and default value of an option. */
 typedef struct tetlod_bounds {
@@ -244,8 +276,22 @@ enum {
   TETLOD_OPT_TET_LEAF = 8,        /* int, "tet-leaf": tets in a leaf of the interpolation tree [3.5], at most */
   TETLOD_OPT_THREADS = 9,         /* int, "threads": 0 means one a core; never more than oneTBB has in this process */
   TETLOD_OPT_SEED = 10,           /* int, "seed": of the shuffles of remeshing's retries and of the error's samples */
-  TETLOD_OPT_TIME_LIMIT = 11      /* real, "time-limit": seconds for a tetlod_run; 0: none */
+  TETLOD_OPT_TIME_LIMIT = 11,     /* real, "time-limit": seconds for a tetlod_run; 0: none */
+  /* What happens to a defect of the mesh that can be repaired: int, TETLOD_POLICY_ERROR or TETLOD_POLICY_REPAIR. All
+   * but the last default to repair. With an error policy tetlod_run first does all that tetlod_check does. */
+  TETLOD_OPT_ON_COINCIDENT = 12, /* "on-coincident": merge the points; error: TETLOD_ERR_MESH_DEGENERATE */
+  TETLOD_OPT_ON_REPEATED = 13,   /* "on-repeated": drop tets with a vertex twice; TETLOD_ERR_MESH_DEGENERATE */
+  TETLOD_OPT_ON_FLAT = 14,      /* "on-flat": tets without volume are dropped from the boundary, inside they do no harm;
+                                   TETLOD_ERR_MESH_DEGENERATE */
+  TETLOD_OPT_ON_INVERTED = 15,  /* "on-inverted": take the tets the other way round; TETLOD_ERR_MESH_DEGENERATE */
+  TETLOD_OPT_ON_DUPLICATE = 16, /* "on-duplicate": drop the later tets; TETLOD_ERR_MESH_INTERSECTING */
+  TETLOD_OPT_ON_OVERLAP = 17,   /* "on-overlap": neighbours on one side of their face are kept where they do not reach
+                                   the boundary; TETLOD_ERR_MESH_INTERSECTING */
+  TETLOD_OPT_ON_UNUSED = 18,    /* "on-unused": ignore the points; TETLOD_ERR_MESH_DEGENERATE */
+  TETLOD_OPT_ON_NONFINITE = 19  /* "on-nonfinite": ignore points without a finite value together with their tets;
+                                   TETLOD_ERR_MESH_NONFINITE, the default */
 };
+enum { TETLOD_POLICY_ERROR = 0, TETLOD_POLICY_REPAIR = 1 };
 /* TETLOD_ERR_OPTION: unknown, of the other kind, or out of bounds (NaN is). */
 TETLOD_API tetlod_status tetlod_set_real(tetlod_context *context, int32_t option, double value);
 TETLOD_API tetlod_status tetlod_set_int(tetlod_context *context, int32_t option, int64_t value);
@@ -274,6 +320,15 @@ TETLOD_API tetlod_status tetlod_submit_scalars(tetlod_context *context, const ch
 /* Forgets what was submitted (the arrays may go), keeps options and the last result. */
 TETLOD_API tetlod_status tetlod_clear(tetlod_context *context);
 
+/* Counts every class of defect of what is submitted (points and tets; scalars where they are), with the first culprit
+ * of each. TETLOD_OK also for a bad mesh: out->status says what tetlod_run would, and tetlod_last_message the reason.
+ * TETLOD_ERR_STATE, TETLOD_ERR_STRUCT_SIZE, TETLOD_ERR_MEMORY_LIMIT, TETLOD_ERR_CANCELLED, TETLOD_ERR_TIME_LIMIT. */
+TETLOD_API tetlod_status tetlod_check(tetlod_context *context, tetlod_mesh_report *out);
+/* Estimates tetlod_run_report.peak_bytes of a tetlod_run with what is submitted and the options as they are, within a
+ * factor of 1.5 where the mesh is sound. The boundary's faces are counted for it.
+ * TETLOD_ERR_STATE, TETLOD_ERR_MESH_INDEX, TETLOD_ERR_MEMORY_LIMIT. */
+TETLOD_API tetlod_status tetlod_estimate_memory(tetlod_context *context, uint64_t *bytes);
+
 /* ---- Running ----------------------------------------------------------------------------------------------------- */
 
 /* Simplifies: boundary extraction and decimation [3.2], sampling [3.1], culling [3.3], remeshing [3.4], values [3.5].
@@ -287,14 +342,15 @@ TETLOD_API tetlod_status tetlod_clear(tetlod_context *context);
  *
  * Guarantees of a result: every tet has a positive volume, every face is used by one or two tets, the boundary is
  * closed, does not cross itself and has the components and the Euler characteristic of the original's, every value lies
- * within the original's range. Boundary vertices come first, then samples (each an original vertex with its value), then
- * Steiner points. */
+ * within the original's range. Boundary vertices come first, then samples (each an original vertex with its value),
+ * then Steiner points. */
 TETLOD_API tetlod_status tetlod_run(tetlod_context *context);
 
 /* Estimates the field error of the last result [4], at the original vertices and at samples_per_tet (0 to 100) random
  * samples in each original tet. The input of the run must still be submitted.
  * TETLOD_ERR_STATE, TETLOD_ERR_STRUCT_SIZE, TETLOD_ERR_MEMORY_LIMIT, TETLOD_ERR_CANCELLED. */
-TETLOD_API tetlod_status tetlod_measure_error(tetlod_context *context, int32_t samples_per_tet, tetlod_error_report *out);
+TETLOD_API tetlod_status tetlod_measure_error(tetlod_context *context, int32_t samples_per_tet,
+                                              tetlod_error_report *out);
 /* How many original (side 0) or result (side 1) vertices have a value in each of `bins` equal parts of the original's
  * range [4, Figure 5]; counts has room for bins (1 to 1 << 20) numbers. TETLOD_ERR_STATE. */
 TETLOD_API tetlod_status tetlod_histogram(const tetlod_context *context, int32_t side, int32_t bins, int64_t *counts);

@@ -91,6 +91,13 @@ Box Star::box() const {
   return box;
 }
 
+bool pinches_ring(const Star &star) {
+  for (std::size_t i = 0; i < star.size(); i++)
+    for (std::size_t j = 0; j < i; j++)
+      if (star.ring_id[i] == star.ring_id[j]) return true;
+  return false;
+}
+
 bool turns_too_far(const Star &star) {
   for (std::size_t i = 0; i < star.size(); i++)
     if (cos_below(star.normal[i], star.old_normal[i], least_cos_of_turn)) return true;

@@ -159,13 +159,10 @@ class Decimator {
   void update_sums(VertexHandle v) {
     VolumeSums volume;
     LinkSums link;
-    const HalfedgeHandle first = mesh_.halfedge_handle(v);
-    HalfedgeHandle h = first;
-    do {
+    for_each_around(v, [&](HalfedgeHandle h) {
       volume.add(at(plane_, mesh_.face_handle(h)));
       link.add(point(mesh_.to_vertex_handle(h)));
-      h = next_around(h);
-    } while (h != first);
+    });
     at(volume_, v) = volume;
     at(link_, v) = link;
   }
@@ -173,6 +170,26 @@ class Decimator {
   /// The next half-edge that leaves the same vertex, counter-clockwise.
   HalfedgeHandle next_around(HalfedgeHandle h) const {
     return mesh_.opposite_halfedge_handle(mesh_.prev_halfedge_handle(h));
+  }
+
+  /// The half-edges that leave v; stops when visit returns true, and says whether it did.
+  template <class Visit>
+  bool any_around(VertexHandle v, const Visit &visit) const {
+    const HalfedgeHandle first = mesh_.halfedge_handle(v);
+    HalfedgeHandle h = first;
+    do {
+      if (visit(h)) return true;
+      h = next_around(h);
+    } while (h != first);
+    return false;
+  }
+
+  template <class Visit>
+  void for_each_around(VertexHandle v, const Visit &visit) const {
+    any_around(v, [&](HalfedgeHandle h) {
+      visit(h);
+      return false;
+    });
   }
 
   VertexHandle apex(HalfedgeHandle h) const { return mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h)); }
@@ -191,12 +208,12 @@ class Decimator {
     LinkSums link = at(link_, from);
     link.add(at(link_, to));
     for (VertexHandle v : {from, to, apex(h), apex(o)}) link.add(point(v), -1);
-    if (const VertexHandle fixed = fixed_end(from, to); fixed.is_valid())
-      return {point(fixed), collapse_cost(link, point(fixed), length2_e)};
     VolumeSums volume = at(volume_, from);
     volume.add(at(volume_, to));
     for (HalfedgeHandle side : {h, o}) volume.add(at(plane_, mesh_.face_handle(side)), -1);
-    const Vec3 x = place_vertex(volume, link, length2_e, lambda_);
+    const VertexHandle fixed = fixed_end(from, to);
+    const Vec3 x = fixed.is_valid() ? point(fixed) : place_vertex(volume, link, length2_e, lambda_);
+    if (fixed.is_valid() && changes_volume(volume, x, length2_e)) return {x, std::numeric_limits<double>::infinity()};
     return {x, collapse_cost(link, x, length2_e)};
   }
 
@@ -210,7 +227,10 @@ class Decimator {
     const VertexHandle from = mesh_.from_vertex_handle(h), to = mesh_.to_vertex_handle(h);
     if (at(locked_, from) && at(locked_, to)) return;
     const double cost = by_length_ ? length2(point(to) - point(from)) : place(h).cost;
-    queue_.set(edge.idx(), std::isfinite(cost) ? cost : std::numeric_limits<double>::max());
+    if (std::isfinite(cost))
+      queue_.set(edge.idx(), cost);
+    else
+      queue_.remove(edge.idx());
   }
 
   // ---- Admissibility
@@ -223,19 +243,19 @@ class Decimator {
 
   int valence(VertexHandle v) const { return int(at(link_, v).count); }
 
-  /// Two sheets that touch at both ends of a new edge might share it, or share a triangle.
-  bool joins_touching(HalfedgeHandle h) const {
+  /// `to`, where the surface touches itself, would get an edge that another sheet has or may get: to a vertex that is
+  /// also touched, or to one that has an edge to `to` in another sheet.
+  bool joins_sheets(HalfedgeHandle h) const {
     const VertexHandle from = mesh_.from_vertex_handle(h), to = mesh_.to_vertex_handle(h);
-    if (!at(touching_, from) && !at(touching_, to)) return false;
-    const VertexHandle moving = at(touching_, from) ? to : from;
-    const HalfedgeHandle first = mesh_.halfedge_handle(moving);
-    HalfedgeHandle around = first;
-    do {
-      const VertexHandle v = mesh_.to_vertex_handle(around);
-      if (v != from && v != to && at(touching_, v)) return true;
-      around = next_around(around);
-    } while (around != first);
-    return false;
+    if (!at(touching_, to)) return false;
+    const auto is_other_sheet = [&](HalfedgeHandle out) {
+      const VertexHandle w = mesh_.to_vertex_handle(out);
+      return w != to && at(id_, w) == at(id_, to);
+    };
+    return any_around(from, [&](HalfedgeHandle out) {
+      const VertexHandle v = mesh_.to_vertex_handle(out);
+      return v != to && (at(touching_, v) || any_around(v, is_other_sheet));
+    });
   }
 
   /// Fills star_; false when the link is too long to bother.
@@ -277,8 +297,8 @@ class Decimator {
     HalfedgeHandle h = mesh_.halfedge_handle(edge, 0);
     if (at(locked_, mesh_.from_vertex_handle(h))) h = mesh_.opposite_halfedge_handle(h);
     const Vec3 x = place(h).point;
-    if (breaks_topology(h) || joins_touching(h) || !look_around(h, x)) return;
-    if (turns_too_far(star_) || folds(star_) || makes_sliver(star_)) return;
+    if (breaks_topology(h) || joins_sheets(h) || !look_around(h, x)) return;
+    if (pinches_ring(star_) || turns_too_far(star_) || folds(star_) || makes_sliver(star_)) return;
     if (crosses_surface(star_, {tree_, point_, triangle_, id_})) return;
     collapse(h, x);
   }
@@ -311,22 +331,11 @@ class Decimator {
   }
 
   void update_around(VertexHandle centre) {
-    const HalfedgeHandle first = mesh_.halfedge_handle(centre);
-    HalfedgeHandle h = first;
-    do {
-      update_face(h);
-      h = next_around(h);
-    } while (h != first);
+    for_each_around(centre, [&](HalfedgeHandle h) { update_face(h); });
     update_sums(centre);
-    do {
-      update_sums(mesh_.to_vertex_handle(h));
-      h = next_around(h);
-    } while (h != first);
+    for_each_around(centre, [&](HalfedgeHandle h) { update_sums(mesh_.to_vertex_handle(h)); });
     now_++;
-    do {
-      update_costs_at(mesh_.to_vertex_handle(h));
-      h = next_around(h);
-    } while (h != first);
+    for_each_around(centre, [&](HalfedgeHandle h) { update_costs_at(mesh_.to_vertex_handle(h)); });
   }
 
   void update_face(HalfedgeHandle spoke) {
@@ -338,14 +347,12 @@ class Decimator {
   }
 
   void update_costs_at(VertexHandle v) {
-    const HalfedgeHandle first = mesh_.halfedge_handle(v);
-    HalfedgeHandle h = first;
-    do {
+    for_each_around(v, [&](HalfedgeHandle h) {
       const OpenMesh::EdgeHandle edge = mesh_.edge_handle(h);
-      if (at(stamp_, edge) != now_) update_cost(edge);
+      if (at(stamp_, edge) == now_) return;
       at(stamp_, edge) = now_;
-      h = next_around(h);
-    } while (h != first);
+      update_cost(edge);
+    });
   }
 
   const Surface &surface_;
@@ -370,12 +377,6 @@ class Decimator {
   Star star_{job_.memory};
 };
 
-double diagonal_of(const Surface &surface) {
-  Box box;
-  for (const Vec3 &p : surface.points) box.add(p);
-  return glm::length(box.high - box.low);
-}
-
 }  // namespace
 
 DecimateReport decimate_boundary(Surface &surface, const SurfaceTopology &topology, Span<const std::uint8_t> locked,
@@ -384,7 +385,8 @@ DecimateReport decimate_boundary(Surface &surface, const SurfaceTopology &topolo
   DecimateReport report;
   report.edges_in = decimator.edges();
   const auto target = std::int64_t(std::ceil(options.sigma * double(report.edges_in)));
-  if (options.clean_edges > 0) decimator.collapse_until(target, options.clean_edges * diagonal_of(surface));
+  if (options.clean_edges > 0)
+    decimator.collapse_until(target, options.clean_edges * box_of(surface.points).diagonal());
   report.cleaned_edges = (report.edges_in - decimator.edges()) / 3;
   decimator.collapse_until(target, 0);
   report.edges_out = decimator.edges();

@@ -106,6 +106,12 @@ class SymmetricSolver {
 /// cancel out.
 inline bool volume_is_constrained(const VolumeSums &s) { return length2(s.normal) > 1e-6 * (s.xx + s.yy + s.zz); }
 
+/// A vertex that may not move takes the place of both: the surface moves by more than a tenth of the edge.
+inline bool changes_volume(const VolumeSums &s, const Vec3 &x, double length2_e) {
+  const double change = glm::dot(s.normal, x) - s.offset;
+  return change * change > 0.01 * length2_e * (s.xx + s.yy + s.zz);
+}
+
 inline Vec3 optimize_shape(const VolumeSums &volume, const LinkSums &link) {
   const Vec3 centre = link.position / link.count;
   if (!volume_is_constrained(volume)) return centre;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <limits>
 
@@ -81,6 +82,13 @@ struct Box {
     low = glm::min(low, other.low);
     high = glm::max(high, other.high);
   }
+  double diagonal() const { return glm::length(high - low); }
 };
+
+inline Box box_of(Span<const Vec3> points) {
+  Box box;
+  for (const Vec3 &p : points) box.add(p);
+  return box;
+}
 
 }  // namespace tetlod

@@ -125,7 +125,7 @@ void check_used_points(const Input &input, const Options &options, Original &ori
              number(mesh.points[v][k]).c_str());
     const double value = mesh.scalars[v];
     if (!std::isfinite(value)) {
-      if (options.on_nonfinite == Policy::error)
+      if (options.on_nonfinite == policy_error)
         fail(Status::mesh_nonfinite, "the value of vertex %zu is %s", v + std::size_t(input.index_base),
              number(value).c_str());
       used[v] = 0;
@@ -207,7 +207,7 @@ void prepare_original(const Input &input, const Options &options, Job &job, Orig
   scale_extreme_coordinates(job, original);
 
   Array<std::int32_t> representative(&job.memory);
-  const double diagonal = glm::length(original.box.high - original.box.low);
+  const double diagonal = original.box.diagonal();
   original.merged_points =
       merge_points(original.view.points, used, options.merge_tolerance * diagonal, job, representative);
   if (original.merged_points || original.nonfinite_points || any_repeated_vertex(original.view.tets, job))

@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <random>
 #include <utility>
 
 #include "geometry.hpp"
-#include "kd_tree.hpp"
 #include "remesh_checks.hpp"
 #include "remesh_frame.hpp"
 #include "remesh_result.hpp"
 #include "status.hpp"
+#include "surface_distance.hpp"
 
 namespace tetlod {
 
@@ -108,42 +107,22 @@ RemeshInput samples_inserted_late(const Problem &problem) {
   return input;
 }
 
-/// The triangles of the surface, to ask how near a sample is.
-class NearestTriangle {
- public:
-  explicit NearestTriangle(const Problem &problem) : surface_(problem.surface), tree_(problem.job.memory) {
-    Array<Box> boxes(surface_.triangles.size(), &problem.job.memory);
-    for (std::size_t i = 0; i < boxes.size(); i++)
-      for (int k = 0; k < 3; k++) boxes[i].add(corner(std::int32_t(i), k));
-    tree_.build(std::move(boxes), 8);
-  }
-  /// Nearer than half the longest edge of the nearest triangle.
-  bool crowds(const Vec3 &p) const {
-    double distance2 = std::numeric_limits<double>::infinity();
-    const std::int32_t triangle = tree_.nearest(p, distance2, [&](std::int32_t i) { return distance2_to(p, i); });
-    const Vec3 &a = corner(triangle, 0), &b = corner(triangle, 1), &c = corner(triangle, 2);
-    return 4 * distance2 < std::max({length2(b - a), length2(c - b), length2(a - c)});
-  }
-
- private:
-  const Vec3 &corner(std::int32_t triangle, int k) const {
-    return surface_.points[std::size_t(surface_.triangles[std::size_t(triangle)][std::size_t(k)])];
-  }
-  double distance2_to(const Vec3 &p, std::int32_t i) const {
-    const Vec3 &a = corner(i, 0), &b = corner(i, 1), &c = corner(i, 2);
-    const Vec3 weights = nearest_in_triangle(p, a, b, c);
-    return length2(weights.x * a + weights.y * b + weights.z * c - p);
-  }
-  const Surface &surface_;
-  KdTree tree_;
-};
+/// Nearer to the surface than half the longest edge of the nearest triangle.
+bool crowds(const Vec3 &p, const Surface &surface, const NearestTriangle &triangles) {
+  const NearestPoint at = triangles.nearest(p);
+  const Triangle &t = surface.triangles[std::size_t(at.triangle)];
+  const Vec3 &a = surface.points[std::size_t(t[0])], &b = surface.points[std::size_t(t[1])],
+             &c = surface.points[std::size_t(t[2])];
+  return 4 * at.distance * at.distance < std::max({length2(b - a), length2(c - b), length2(a - c)});
+}
 
 RemeshInput without_crowding_samples(const Problem &problem) {
   RemeshInput input = boundary_input(problem, uniform_frame(problem.facts.box));
-  const NearestTriangle nearest(problem);
+  const NearestTriangle triangles(problem.surface.points, problem.surface.triangles, 8, problem.job);
   for (std::size_t i = 0; i < problem.samples.size(); i++) {
     if (i % 256 == 0) problem.job.poll(problem.progress);
-    if (!nearest.crowds(problem.samples[i])) add_sample(problem, i, input.frame, input.points, input.number);
+    if (!crowds(problem.samples[i], problem.surface, triangles))
+      add_sample(problem, i, input.frame, input.points, input.number);
   }
   return input;
 }

@@ -195,10 +195,6 @@ void check_volume(Span<const Vec3> points, Span<const Triangle> triangles) {
   if (volume.value <= volume.uncertainty) fail(Status::mesh_degenerate, "the boundary encloses no volume");
 }
 
-/// The place of the test of triangles against each other. decimate_boundary guarantees the result; what slips
-/// through is TetGen's code 3.
-void check_self_intersections(const Surface &) {}
-
 }  // namespace
 
 Volume enclosed_volume(Span<const Vec3> points, Span<const Triangle> triangles) {
@@ -232,7 +228,6 @@ SurfaceFacts check_surface(const Surface &surface, Job &job) {
   check_duplicates(surface, job);
   facts.components = count_components(surface, job);
   check_volume(points, surface.triangles);
-  check_self_intersections(surface);
   return facts;
 }
 

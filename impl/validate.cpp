@@ -5,15 +5,20 @@
 
 #include "extract_boundary.hpp"
 #include "face_sweep.hpp"
+#include "find_crossing.hpp"
 #include "geometry.hpp"
 #include "merge_points.hpp"
 #include "predicates.hpp"
-#include "status.hpp"
+#include "prepare.hpp"
 #include "surface_topology.hpp"
 
 namespace tetlod {
 
 namespace {
+
+bool blames_the_mesh(const Error &error) {
+  return error.status() >= Status::mesh_empty && error.status() <= Status::mesh_too_large;
+}
 
 class Inspector {
  public:
@@ -83,7 +88,7 @@ class Inspector {
     Box box;
     for (std::size_t v = 0; v < points_.size(); v++)
       if (used_[v]) box.add(points_[v]);
-    const double tolerance = options_.merge_tolerance * glm::length(box.high - box.low);
+    const double tolerance = options_.merge_tolerance * box.diagonal();
     Array<std::int32_t> representative(&job_.memory);
     merge_points(points_, used_, std::isfinite(tolerance) ? tolerance : 0, job_, representative);
     for (std::size_t v = 0; v < points_.size(); v++)
@@ -191,7 +196,7 @@ class Inspector {
       found_.nonmanifold_points = {topology.nonmanifold_points, -1};
       name_first_touching(surface, topology);
     } catch (const Error &error) {
-      if (error.status() < Status::mesh_empty) throw;
+      if (!blames_the_mesh(error)) throw;
     }
   }
 
@@ -218,7 +223,7 @@ class Inspector {
 /// The classes that a policy governs, in the order in which they are refused.
 struct Rule {
   Defect Defects::*defect;
-  Policy Options::*policy;
+  std::int64_t Options::*policy;
   Status status;
   const char *what;
 };
@@ -244,10 +249,29 @@ Defects find_defects(const Input &input, const Options &options, Job &job) {
   return Inspector(input, options, job).inspect();
 }
 
+Error verdict_on(const Input &input, const Options &options, Job &job) {
+  try {
+    if (any_strict_policy(options)) refuse_defects(find_defects(input, options, job), options);
+    Original original(job.memory);
+    prepare_original(input, options, job, original);
+    Boundary boundary(job.memory);
+    extract_boundary(original.view, job, boundary);
+    Surface surface(job.memory);
+    make_surface(original.view, boundary.triangles, job, surface);
+    SurfaceTopology topology(job.memory);
+    find_topology(surface.points, surface.triangles, job, topology);
+    refuse_crossing(surface, input.index_base, job);
+  } catch (const Error &error) {
+    if (!blames_the_mesh(error)) throw;
+    return error;
+  }
+  return Error(Status::ok, "");
+}
+
 void refuse_defects(const Defects &defects, const Options &options) {
   for (const Rule &rule : rules) {
     const Defect &defect = defects.*rule.defect;
-    if (defect.count && options.*rule.policy == Policy::error)
+    if (defect.count && options.*rule.policy == policy_error)
       fail(rule.status, "%lld %s %lld", static_cast<long long>(defect.count), rule.what,
            static_cast<long long>(defect.first));
   }
@@ -255,7 +279,7 @@ void refuse_defects(const Defects &defects, const Options &options) {
 
 bool any_strict_policy(const Options &options) {
   return std::any_of(std::begin(rules), std::end(rules), [&](const Rule &rule) {
-    return rule.policy != &Options::on_nonfinite && options.*rule.policy == Policy::error;
+    return rule.policy != &Options::on_nonfinite && options.*rule.policy == policy_error;
   });
 }
 

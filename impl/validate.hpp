@@ -4,6 +4,7 @@
 
 #include "job.hpp"
 #include "pipeline.hpp"
+#include "status.hpp"
 
 namespace tetlod {
 
@@ -38,7 +39,10 @@ struct Defects {
 /// Looks at everything, stops at nothing but the job's limits. Shapes and counts of the input are sound.
 Defects find_defects(const Input &input, const Options &options, Job &job);
 
-/// Throws the status of the first class that has defects and whose policy is Policy::error.
+/// What a run would say of the mesh before remeshing; Status::ok when nothing. Throws what is not the mesh's fault.
+Error verdict_on(const Input &input, const Options &options, Job &job);
+
+/// Throws the status of the first class that has defects and whose policy is policy_error.
 void refuse_defects(const Defects &defects, const Options &options);
 
 /// Whether refuse_defects could refuse anything that the run itself would not.
