@@ -225,7 +225,10 @@ class Decimator {
     if (mesh_.status(edge).deleted()) return;
     const HalfedgeHandle h = mesh_.halfedge_handle(edge, 0);
     const VertexHandle from = mesh_.from_vertex_handle(h), to = mesh_.to_vertex_handle(h);
-    if (at(locked_, from) && at(locked_, to)) return;
+    if (at(locked_, from) && at(locked_, to)) {
+      queue_.remove(edge.idx());  // it may have been there before a collapse gave it its second fixed end
+      return;
+    }
     const double cost = by_length_ ? length2(point(to) - point(from)) : place(h).cost;
     if (std::isfinite(cost))
       queue_.set(edge.idx(), cost);
@@ -327,7 +330,8 @@ class Decimator {
     const Vec3 edge = point(to) - point(from);
     const double whole = length2(edge);
     const double t = whole > 0 ? std::clamp(glm::dot(x - point(from), edge) / whole, 0.0, 1.0) : 0.5;
-    return (1 - t) * at(scalar_, from) + t * at(scalar_, to);
+    const auto [low, high] = std::minmax(at(scalar_, from), at(scalar_, to));
+    return std::clamp((1 - t) * at(scalar_, from) + t * at(scalar_, to), low, high);
   }
 
   void update_around(VertexHandle centre) {
@@ -386,7 +390,7 @@ DecimateReport decimate_boundary(Surface &surface, const SurfaceTopology &topolo
   report.edges_in = decimator.edges();
   const auto target = std::int64_t(std::ceil(options.sigma * double(report.edges_in)));
   if (options.clean_edges > 0)
-    decimator.collapse_until(target, options.clean_edges * box_of(surface.points).diagonal());
+    decimator.collapse_until(0, options.clean_edges * box_of(surface.points).diagonal());
   report.cleaned_edges = (report.edges_in - decimator.edges()) / 3;
   decimator.collapse_until(target, 0);
   report.edges_out = decimator.edges();

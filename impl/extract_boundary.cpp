@@ -18,6 +18,8 @@ int tet_sign(const MeshView &mesh, const Tet &t) {
 Triangle outward_face(const Tet &t, int k, int sign) {
   Triangle face{t[std::size_t(tet_face[k][0])], t[std::size_t(tet_face[k][1])], t[std::size_t(tet_face[k][2])]};
   if (sign < 0) std::swap(face[1], face[2]);
+  // From its lowest vertex on, so that the order of the tet's corners leaves no trace.
+  std::rotate(face.begin(), std::min_element(face.begin(), face.end()), face.end());
   return face;
 }
 

@@ -34,17 +34,15 @@ inline double triangle_quality(const Vec3 &a, const Vec3 &b, const Vec3 &c) {
 /// The point of a triangle nearest to p, as barycentric weights.
 Vec3 nearest_in_triangle(const Vec3 &p, const Vec3 &a, const Vec3 &b, const Vec3 &c);
 
-/// Barycentric weights of p in a tet of either winding; all zero for a tet without volume.
-inline void barycentric(const Vec3 &p, const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &d, double weights[4]) {
+/// Barycentric weights of p in a tet of either winding; false for a tet without volume, which has none.
+inline bool barycentric(const Vec3 &p, const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &d, double weights[4]) {
   const double whole = det(a, b, c, d);
-  if (whole == 0) {
-    std::fill(weights, weights + 4, 0.0);
-    return;
-  }
+  if (whole == 0) return false;
   weights[0] = det(p, b, c, d) / whole;
   weights[1] = det(a, p, c, d) / whole;
   weights[2] = det(a, b, p, d) / whole;
   weights[3] = 1 - weights[0] - weights[1] - weights[2];
+  return true;
 }
 
 }  // namespace tetlod

@@ -39,14 +39,20 @@ Array<std::int32_t> find_candidates(const MeshView &mesh, Span<const Vec3> point
   return candidates;
 }
 
-double value_in_tet(const MeshView &mesh, const Tet &t, const double weights[4]) {
+/// The mean of the values at the vertices; rounding does not take it beyond them.
+template <class Vertices, class Weights>
+double weighted_mean(const MeshView &mesh, const Vertices &vertices, const Weights &weights) {
   double sum = 0, total = 0;
-  for (int k = 0; k < 4; k++) {
-    const double w = std::max(weights[k], 0.0);
-    sum += w * mesh.scalars[std::size_t(t[std::size_t(k)])];
-    total += w;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (std::size_t k = 0; k < vertices.size(); k++) {
+    const double value = mesh.scalars[std::size_t(vertices[k])];
+    const double weight = std::max(weights[int(k)], 0.0);
+    sum += weight * value;
+    total += weight;
+    low = std::min(low, value);
+    high = std::max(high, value);
   }
-  return sum / total;
+  return std::clamp(sum / total, low, high);
 }
 
 class TetTree {
@@ -65,12 +71,13 @@ class TetTree {
     return tree_.any_overlap(box_at(p), [&](std::int32_t i) {
       const Tet &t = mesh_.tets[std::size_t(tets_[std::size_t(i)])];
       double w[4];
-      barycentric(p, mesh_.points[std::size_t(t[0])], mesh_.points[std::size_t(t[1])], mesh_.points[std::size_t(t[2])],
-                  mesh_.points[std::size_t(t[3])], w);
+      if (!barycentric(p, mesh_.points[std::size_t(t[0])], mesh_.points[std::size_t(t[1])],
+                       mesh_.points[std::size_t(t[2])], mesh_.points[std::size_t(t[3])], w))
+        return false;
       const double least = std::min({w[0], w[1], w[2], w[3]});
       if (least > best) {
         best = least;
-        value = value_in_tet(mesh_, t, w);
+        value = weighted_mean(mesh_, t, w);
       }
       return best >= 0;
     }) || best > -rounding;
@@ -85,10 +92,7 @@ class TetTree {
 double value_on_boundary(const MeshView &mesh, Span<const Triangle> boundary, const NearestTriangle &nearest,
                          const Vec3 &p) {
   const NearestPoint at = nearest.nearest(p);
-  const Triangle &t = boundary[std::size_t(at.triangle)];
-  double value = 0;
-  for (int k = 0; k < 3; k++) value += at.weights[k] * mesh.scalars[std::size_t(t[std::size_t(k)])];
-  return value;
+  return weighted_mean(mesh, boundary[std::size_t(at.triangle)], at.weights);
 }
 
 }  // namespace

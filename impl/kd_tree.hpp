@@ -78,7 +78,7 @@ class KdTree {
     while (top) {
       const std::int32_t self = stack[--top];
       const Node &node = nodes_[std::size_t(self)];
-      if (distance2(node.box, p) > best) continue;
+      if (!reaches(distance2(node.box, p), best)) continue;
       if (node.right) {
         const double left = distance2(nodes_[std::size_t(self + 1)].box, p);
         const double right = distance2(nodes_[std::size_t(node.right)].box, p);
@@ -88,7 +88,7 @@ class KdTree {
       }
       for (std::int32_t i = node.begin; i < node.end; i++) {
         const std::int32_t item = items_[std::size_t(i)];
-        if (distance2(boxes_[std::size_t(item)], p) > best) continue;
+        if (!reaches(distance2(boxes_[std::size_t(item)], p), best)) continue;
         const double d = distance2_to(item);
         if (d < best || (d == best && (found < 0 || item < found))) {
           best = d;
@@ -119,6 +119,11 @@ class KdTree {
     std::int32_t right;       // 0: a leaf; the left child is the next node
     std::int32_t parent;
   };
+
+  /// An empty box is infinitely far, and out of reach even when nothing was found yet.
+  static bool reaches(double box_distance2, double best) {
+    return box_distance2 <= best && box_distance2 < std::numeric_limits<double>::infinity();
+  }
 
   Box box_below(std::int32_t self) const {
     const Node &node = nodes_[std::size_t(self)];

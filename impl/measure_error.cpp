@@ -34,8 +34,9 @@ class Field {
     tree_.any_overlap({p, p}, [&](std::int32_t item) {
       const Tet &t = mesh_.tets[std::size_t(item)];
       double w[4];
-      barycentric(p, mesh_.points[std::size_t(t[0])], mesh_.points[std::size_t(t[1])], mesh_.points[std::size_t(t[2])],
-                  mesh_.points[std::size_t(t[3])], w);
+      if (!barycentric(p, mesh_.points[std::size_t(t[0])], mesh_.points[std::size_t(t[1])],
+                       mesh_.points[std::size_t(t[2])], mesh_.points[std::size_t(t[3])], w))
+        return false;
       const double least = std::min({w[0], w[1], w[2], w[3]});
       if (least > best) {
         best = least;

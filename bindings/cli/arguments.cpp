@@ -23,9 +23,21 @@ constexpr NumberOption kNumberOptions[] = {
     {"min-distance", "least distance of a sample to the boundary, fraction of the diagonal"},
     {"merge-tolerance", "points this near become one, fraction of the diagonal"},
     {"clean-edges", "boundary edges shorter than this are collapsed first, fraction of the diagonal"},
-    {"threads", "0: one a core"},
+    {"threads", "0: one a core, which is what the tool does; the library's own default is"},
     {"seed", "of the retries and of the error's samples"},
     {"time-limit", "seconds for the simplification, 0: none"},
+};
+
+// What happens to a defect of the mesh: the library's policies, by name.
+constexpr NumberOption kPolicyOptions[] = {
+    {"on-coincident", "points at one place: merged"},
+    {"on-repeated", "tets with a vertex twice: dropped"},
+    {"on-flat", "boundary tets without volume: dropped"},
+    {"on-inverted", "tets the other way round: turned"},
+    {"on-duplicate", "tets given twice: dropped"},
+    {"on-overlap", "inner tets that overlap: kept"},
+    {"on-unused", "points that no tet uses: ignored"},
+    {"on-nonfinite", "points without a finite value: ignored with their tets"},
 };
 
 tetlod_bounds bounds_of(int32_t option) {
@@ -55,6 +67,17 @@ void add_number(CLI::App &app, const NumberOption &option, Arguments &arguments)
   }
 }
 
+void add_policy(CLI::App &app, const NumberOption &option, Arguments &arguments) {
+  static const std::map<std::string, int64_t> words{{"error", TETLOD_POLICY_ERROR}, {"repair", TETLOD_POLICY_REPAIR}};
+  const int32_t number = tetlod_option_from_name(option.name);
+  const bool repairs = bounds_of(number).preset == TETLOD_POLICY_REPAIR;
+  const auto store = [number, &arguments](const std::string &word) { arguments.integers[number] = words.at(word); };
+  app.add_option_function<std::string>(std::string("--") + option.name, store,
+                                       std::string(option.help) + (repairs ? " [repair]" : " [error]"))
+      ->type_name("error|repair")
+      ->check(CLI::IsMember({"error", "repair"}));
+}
+
 int32_t preset_named(const std::string &name) {
   if (name == "paper") return TETLOD_PRESET_PAPER;
   throw CLI::ValidationError("--preset", "there is no preset '" + name + "' (there is: paper)");
@@ -68,6 +91,7 @@ void add_options(CLI::App &app, Arguments &arguments) {
   const auto preset = [&arguments](const std::string &name) { arguments.preset = preset_named(name); };
   app.add_option_function<std::string>("--preset", preset, "sets the other options: paper")->type_name("NAME");
   for (const NumberOption &option : kNumberOptions) add_number(app, option, arguments);
+  for (const NumberOption &option : kPolicyOptions) add_policy(app, option, arguments);
   app.add_option("--report", arguments.report, "writes what the run did as JSON")->type_name("FILE");
   app.add_flag("--quiet", arguments.quiet, "prints errors only");
 }
@@ -90,6 +114,7 @@ void check_endings(const Arguments &arguments) {
 
 std::optional<Arguments> parse_arguments(int argc, char **argv) {
   Arguments arguments;
+  arguments.integers[TETLOD_OPT_THREADS] = 0;
   arguments.command = joined(argc, argv);
   CLI::App app("Makes a tetrahedral mesh that carries a scalar field smaller.", "tetlod");
   app.set_version_flag("--version", std::string(tetlod_build_info()));

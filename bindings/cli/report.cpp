@@ -25,6 +25,7 @@ void put_counts(Json &json, const tetlod_run_report &run) {
   json["points_in"] = run.points_in;
   json["points_out"] = run.points_out;
   json["merged_points"] = run.merged_points;
+  json["nonfinite_points"] = run.nonfinite_points;
   json["dropped_tets"] = run.dropped_tets;
   json["unused_points"] = run.unused_points;
   json["interior_points_in"] = run.interior_points_in;
