@@ -389,8 +389,7 @@ DecimateReport decimate_boundary(Surface &surface, const SurfaceTopology &topolo
   DecimateReport report;
   report.edges_in = decimator.edges();
   const auto target = std::int64_t(std::ceil(options.sigma * double(report.edges_in)));
-  if (options.clean_edges > 0)
-    decimator.collapse_until(0, options.clean_edges * box_of(surface.points).diagonal());
+  if (options.clean_edges > 0) decimator.collapse_until(0, options.clean_edges * box_of(surface.points).diagonal());
   report.cleaned_edges = (report.edges_in - decimator.edges()) / 3;
   decimator.collapse_until(target, 0);
   report.edges_out = decimator.edges();

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "geometry.hpp"
 #include "kd_tree.hpp"
 #include "predicates.hpp"
 #include "status.hpp"
@@ -24,6 +25,20 @@ bool cross(const Surface &surface, std::int32_t a, std::int32_t b) {
 
 long long origin(const Surface &surface, std::int32_t triangle, std::size_t k, std::int32_t index_base) {
   return surface.origin[std::size_t(surface.triangles[std::size_t(triangle)][k])] + index_base;
+}
+
+/// The winding number in the middle of a triangle, one half for itself: one half on a sound surface, where material is
+/// on one side and none on the other.
+double winding_on(const Surface &surface, std::int32_t triangle) {
+  const std::array<Vec3, 3> own = corners(surface, triangle);
+  const Vec3 middle = (own[0] + own[1] + own[2]) / 3.0;
+  double sum = 0.5;
+  for (std::int32_t t = 0; t < std::int32_t(surface.triangles.size()); t++) {
+    if (t == triangle) continue;
+    const std::array<Vec3, 3> other = corners(surface, t);
+    sum += winding_share(middle, other[0], other[1], other[2]);
+  }
+  return sum;
 }
 
 }  // namespace
@@ -59,6 +74,20 @@ void refuse_crossing(const Surface &surface, std::int32_t index_base, Job &job) 
   fail(Status::mesh_intersecting,
        "the boundary crosses itself: its faces of vertices %lld, %lld, %lld and of vertices %lld, %lld, %lld meet",
        at(true, 0), at(true, 1), at(true, 2), at(false, 0), at(false, 1), at(false, 2));
+}
+
+void refuse_nested_solids(const Surface &surface, const SurfaceTopology &topology, std::int32_t index_base, Job &job) {
+  std::int32_t seen = -1;
+  for (std::int32_t t = 0; t < std::int32_t(surface.triangles.size()); t++) {
+    if (topology.component[std::size_t(t)] <= seen) continue;  // numbered by their first triangles
+    seen = topology.component[std::size_t(t)];
+    job.poll(1);
+    const double sides = winding_on(surface, t);
+    if (sides > 0 && sides < 1) continue;
+    fail(Status::mesh_intersecting,
+         "solids overlap: the boundary face of vertices %lld, %lld, %lld lies in another solid",
+         origin(surface, t, 0, index_base), origin(surface, t, 1, index_base), origin(surface, t, 2, index_base));
+  }
 }
 
 }  // namespace tetlod

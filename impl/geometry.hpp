@@ -34,6 +34,17 @@ inline double triangle_quality(const Vec3 &a, const Vec3 &b, const Vec3 &c) {
 /// The point of a triangle nearest to p, as barycentric weights.
 Vec3 nearest_in_triangle(const Vec3 &p, const Vec3 &a, const Vec3 &b, const Vec3 &c);
 
+/// What a triangle adds to the winding number of p: its solid angle (Van Oosterom and Strackee 1983) over 4 pi,
+/// positive from its inner side.
+inline double winding_share(const Vec3 &p, const Vec3 &x, const Vec3 &y, const Vec3 &z) {
+  constexpr double two_pi = 6.283185307179586;
+  const Vec3 a = x - p, b = y - p, c = z - p;
+  const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
+  const double above = glm::dot(a, glm::cross(b, c));
+  const double below = la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb;
+  return std::atan2(above, below) / two_pi;
+}
+
 /// Barycentric weights of p in a tet of either winding; false for a tet without volume, which has none.
 inline bool barycentric(const Vec3 &p, const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &d, double weights[4]) {
   const double whole = det(a, b, c, d);

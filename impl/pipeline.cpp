@@ -63,11 +63,22 @@ class Pipeline {
       remesh(worker);
       return true;
     } catch (const Error &error) {
-      if (error.status() != Status::remesh || sigma >= 1) throw;
+      if (error.status() != Status::remesh) throw;
+      refuse_overlapping_solids();
+      if (sigma >= 1) throw;
       if (job_.log) job_.log(2, text("sigma %s: %s", number(sigma).c_str(), error.what()).c_str());
       report_.boundary_retries++;
       return false;
     }
+  }
+
+  /// Too dear to be looked for when nothing is wrong. Of the original, whose vertices have names.
+  void refuse_overlapping_solids() {
+    Surface surface(job_.memory);
+    make_surface(original_.view, boundary_.triangles, job_, surface);
+    SurfaceTopology topology(job_.memory);
+    find_topology(surface.points, surface.triangles, job_, topology);
+    refuse_nested_solids(surface, topology, input_.index_base, job_);
   }
 
   void prepare() {

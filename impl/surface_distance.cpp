@@ -10,17 +10,6 @@ namespace {
 
 double angle_between(const Vec3 &a, const Vec3 &b) { return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)); }
 
-/// The solid angle of a triangle seen from p (Van Oosterom and Strackee 1983), positive from its inner side.
-double solid_angle(const Vec3 &p, const Vec3 &x, const Vec3 &y, const Vec3 &z) {
-  const Vec3 a = x - p, b = y - p, c = z - p;
-  const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
-  const double above = glm::dot(a, glm::cross(b, c));
-  const double below = la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb;
-  return 2 * std::atan2(above, below);
-}
-
-constexpr double four_pi = 12.566370614359172;
-
 }  // namespace
 
 NearestTriangle::NearestTriangle(Span<const Vec3> points, Span<const Triangle> triangles, std::int64_t leaf, Job &job)
@@ -105,9 +94,9 @@ bool SurfaceDistance::pseudonormal(const NearestPoint &at, Vec3 &normal) const {
 bool SurfaceDistance::inside_by_winding(const Vec3 &p) const {
   double sum = 0;
   for (const Triangle &t : surface_.triangles)
-    sum += solid_angle(p, surface_.points[std::size_t(t[0])], surface_.points[std::size_t(t[1])],
-                       surface_.points[std::size_t(t[2])]);
-  return sum > 0.5 * four_pi;
+    sum += winding_share(p, surface_.points[std::size_t(t[0])], surface_.points[std::size_t(t[1])],
+                         surface_.points[std::size_t(t[2])]);
+  return sum > 0.5;
 }
 
 double SurfaceDistance::signed_distance(const Vec3 &p, NearestPoint &nearest) const {

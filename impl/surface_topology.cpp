@@ -23,7 +23,7 @@ class TopologyFinder {
     out_.touching.assign(points_.size(), 0);
     for_each_edge([&](std::size_t begin, std::size_t end) { pair_around_edge(begin, end); });
     find_sheet_vertices();
-    count_components();
+    find_components();
   }
 
  private:
@@ -140,21 +140,21 @@ class TopologyFinder {
     }
   }
 
-  void count_components() {
+  void find_components() {
     Array<std::int32_t> stack(&job_.memory);
-    Array<std::uint8_t> seen(triangles_.size(), 0, &job_.memory);
+    out_.component.assign(triangles_.size(), -1);
     for (std::size_t t = 0; t < triangles_.size(); t++) {
-      if (seen[t]) continue;
-      out_.components++;
-      seen[t] = 1;
+      if (out_.component[t] >= 0) continue;
+      const auto number = std::int32_t(out_.components++);
+      out_.component[t] = number;
       stack.push_back(std::int32_t(t));
       while (!stack.empty()) {
         const std::int32_t at = stack.back();
         stack.pop_back();
         for (int k = 0; k < 3; k++) {
           const std::int32_t neighbour = out_.mate[std::size_t(3 * at + k)] / 3;
-          if (seen[std::size_t(neighbour)]) continue;
-          seen[std::size_t(neighbour)] = 1;
+          if (out_.component[std::size_t(neighbour)] >= 0) continue;
+          out_.component[std::size_t(neighbour)] = number;
           stack.push_back(neighbour);
         }
       }

@@ -10,12 +10,14 @@ namespace tetlod {
 /// The surface cut apart where it touches itself. Half-edge 3 t + k runs from corner k of triangle t to corner k + 1.
 struct SurfaceTopology {
   explicit SurfaceTopology(Memory &memory)
-      : mate(&memory), sheet_vertex(&memory), vertex_of(&memory), touching(&memory) {}
+      : mate(&memory), sheet_vertex(&memory), vertex_of(&memory), touching(&memory), component(&memory) {}
 
   Array<std::int32_t> mate;  ///< of each half-edge: the one that runs the other way in the neighbouring triangle
   Array<std::int32_t> sheet_vertex;  ///< of each corner 3 t + k: the vertex of the cut surface that it is
   Array<std::int32_t> vertex_of;     ///< of each vertex of the cut surface: the surface's vertex
   Array<std::uint8_t> touching;      ///< of each point of the surface: the surface touches itself there
+
+  Array<std::int32_t> component;  ///< of each triangle: the number of its component
 
   std::int64_t edges = 0;  ///< of the surface as it is
   std::int64_t used_points = 0;
