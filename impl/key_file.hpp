@@ -13,15 +13,17 @@ class KeyFile {
  public:
   explicit KeyFile(Memory &memory) : begin_(&memory), keys_(&memory) {}
 
-  /// enumerate(visit) calls visit(vertex, key) for every key, twice the same.
+  /// enumerate(visit) calls visit(vertex, key) for every key, twice the same. `fraction` of the stage is done.
   template <class Enumerate>
-  void build(std::size_t vertices, const Enumerate &enumerate, const Parallel &parallel) {
+  void build(std::size_t vertices, const Enumerate &enumerate, double fraction, Job &job) {
     begin_.assign(vertices + 2, 0);
     enumerate([this](std::int32_t vertex, std::uint64_t) { begin_[std::size_t(vertex) + 2]++; });
     for (std::size_t v = 2; v < begin_.size(); v++) begin_[v] += begin_[v - 1];
     keys_.resize(begin_.back());
+    job.poll(fraction);
     enumerate([this](std::int32_t vertex, std::uint64_t key) { keys_[begin_[std::size_t(vertex) + 1]++] = key; });
-    parallel.for_blocks(vertices, 4096, [this](std::size_t first, std::size_t last) {
+    job.parallel.for_blocks(vertices, 4096, [&](std::size_t first, std::size_t last) {
+      job.poll(fraction);
       for (std::size_t v = first; v < last; v++) {
         const Span<std::uint64_t> drawer(keys_.data() + begin_[v], begin_[v + 1] - begin_[v]);
         std::sort(drawer.begin(), drawer.end());

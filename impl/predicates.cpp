@@ -158,6 +158,18 @@ bool edges_miss(const Corners &a, const Corners &b) {
   return true;
 }
 
+/// All of `b` but common vertices is on one side of the plane of `a`: most pairs are decided here.
+bool plane_separates(const Corners &a, const Corners &b) {
+  int side = 0;
+  for (int k = 0; k < 3; k++) {
+    if (a.has(b.corner(k))) continue;
+    const int here = a.side(b.point[k]);
+    if (here == 0 || here == -side) return false;
+    side = here;
+  }
+  return true;
+}
+
 /// Two triangles at a common edge: out of plane, or on different sides of it.
 bool hinge_is_open(const Corners &a, const Corners &b) {
   for (int k = 0; k < 3; k++) {
@@ -200,7 +212,7 @@ bool triangles_apart(const Vec3 *first, const Triangle &first_ids, const Vec3 *s
   for (std::int32_t id : first_ids) common += b.has(id);
   if (common == 3) return false;
   if (common == 2) return hinge_is_open(a, b);
-  return edges_miss(a, b) && edges_miss(b, a);
+  return plane_separates(a, b) || plane_separates(b, a) || (edges_miss(a, b) && edges_miss(b, a));
 }
 
 }  // namespace tetlod

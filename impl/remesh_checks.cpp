@@ -100,7 +100,7 @@ void check_duplicates(const Surface &surface, Job &job) {
           visit(face.vertex, face.key);
         }
       },
-      job.parallel);
+      0, job);
   for (std::size_t v = 0; v < faces.vertices(); v++) {
     const Span<const std::uint64_t> keys = faces.of(v);
     for (std::size_t i = 1; i < keys.size(); i++)
@@ -156,7 +156,7 @@ KeyFile file_edges(const Surface &surface, Job &job) {
             visit(std::min(from, to), EdgeKey(from, to, i).key);
           }
       },
-      job.parallel);
+      0, job);
   return edges;
 }
 

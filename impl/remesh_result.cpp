@@ -50,7 +50,7 @@ void wind_positively(TetgenReply &reply, double fraction, Job &job) {
   for (Tet &tet : reply.tets) std::swap(tet[2], tet[3]);
 }
 
-void file_triangles(const RemeshInput &input, std::size_t vertices, Job &job, KeyFile &faces) {
+void file_triangles(const RemeshInput &input, std::size_t vertices, double fraction, Job &job, KeyFile &faces) {
   faces.build(
       vertices,
       [&](const auto &visit) {
@@ -59,7 +59,7 @@ void file_triangles(const RemeshInput &input, std::size_t vertices, Job &job, Ke
           visit(face.vertex, face.key);
         }
       },
-      job.parallel);
+      fraction, job);
 }
 
 bool contains(const KeyFile &faces, std::int32_t vertex, std::uint64_t key) {
@@ -72,7 +72,7 @@ enum Vote : unsigned char { none = 0, material = 1, empty = 2, contradiction = 3
 
 Array<unsigned char> vote(const RemeshInput &input, const TetgenReply &reply, double fraction, Job &job) {
   KeyFile boundary(job.memory);
-  file_triangles(input, reply.points.size(), job, boundary);
+  file_triangles(input, reply.points.size(), fraction, job, boundary);
   Array<unsigned char> votes(reply.tets.size() + 1, none, &job.memory);
   for (std::size_t i = 0; i < reply.tets.size(); i++) {
     if (i % block == 0) job.poll(fraction);
@@ -128,7 +128,7 @@ std::string check_faces(const RemeshInput &input, const TetgenReply &reply, doub
       }
     }
   };
-  faces.build(reply.points.size(), enumerate, job.parallel);
+  faces.build(reply.points.size(), enumerate, fraction, job);
   for (std::size_t v = 0; v < faces.vertices(); v++) {
     if (v % block == 0) job.poll(fraction);
     if (!is_paired(faces.of(v))) return text("the faces at point %zu do not match the boundary", v);
