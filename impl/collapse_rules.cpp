@@ -50,21 +50,26 @@ bool spokes_cross(const Star &star) {
   return false;
 }
 
-bool spoke_meets(const Star &star, std::size_t i, const SurfaceNow &surface, std::int32_t face) {
+/// A triangle of the surface, looked up once for all spokes.
+struct Other {
+  Vec3 point[3];
+  Triangle id;
+  Box box;
+
+  Other(const SurfaceNow &surface, std::int32_t face) {
+    const Triangle &t = surface.triangles[std::size_t(face)];
+    for (std::size_t k = 0; k < 3; k++) {
+      point[k] = surface.points[std::size_t(t[k])];
+      id[k] = surface.id[std::size_t(t[k])];
+      box.add(point[k]);
+    }
+  }
+};
+
+bool spoke_meets(const Star &star, std::size_t i, const Other &other) {
+  if (!overlap(star.spoke_box[i], other.box)) return false;
   const Vec3 spoke[3] = {star.centre, star.ring[i], star.ring[star.after(i)]};
-  const Triangle &t = surface.triangles[std::size_t(face)];
-  Vec3 other[3];
-  Triangle ids;
-  for (std::size_t k = 0; k < 3; k++) {
-    other[k] = surface.points[std::size_t(t[k])];
-    ids[k] = surface.id[std::size_t(t[k])];
-  }
-  Box spoke_box, other_box;
-  for (int k = 0; k < 3; k++) {
-    spoke_box.add(spoke[k]);
-    other_box.add(other[k]);
-  }
-  return overlap(spoke_box, other_box) && !triangles_apart(spoke, spoke_ids(star, i), other, ids);
+  return !triangles_apart(spoke, spoke_ids(star, i), other.point, other.id);
 }
 
 }  // namespace
@@ -76,18 +81,23 @@ void Star::clear() {
   outer_normal.clear();
   old_faces.clear();
   normal.clear();
+  spoke_box.clear();
   old_quality = 1;
 }
 
-void Star::find_normals() {
+void Star::find_spokes() {
   normal.clear();
-  for (std::size_t i = 0; i < size(); i++) normal.push_back(area_vector(centre, ring[i], ring[after(i)]));
+  spoke_box.clear();
+  for (std::size_t i = 0; i < size(); i++) {
+    normal.push_back(area_vector(centre, ring[i], ring[after(i)]));
+    spoke_box.emplace_back();
+    for (const Vec3 &p : {centre, ring[i], ring[after(i)]}) spoke_box.back().add(p);
+  }
 }
 
 Box Star::box() const {
   Box box;
-  box.add(centre);
-  for (const Vec3 &p : ring) box.add(p);
+  for (const Box &spoke : spoke_box) box.add(spoke);
   return box;
 }
 
@@ -123,8 +133,9 @@ bool crosses_surface(const Star &star, const SurfaceNow &surface) {
   if (!is_flat_fan(star) && spokes_cross(star)) return true;
   return surface.tree.any_overlap(star.box(), [&](std::int32_t face) {
     if (std::find(star.old_faces.begin(), star.old_faces.end(), face) != star.old_faces.end()) return false;
+    const Other other(surface, face);
     for (std::size_t i = 0; i < star.size(); i++)
-      if (spoke_meets(star, i, surface, face)) return true;
+      if (spoke_meets(star, i, other)) return true;
     return false;
   });
 }

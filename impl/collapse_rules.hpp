@@ -16,7 +16,8 @@ struct Star {
         old_normal(&memory),
         outer_normal(&memory),
         old_faces(&memory),
-        normal(&memory) {}
+        normal(&memory),
+        spoke_box(&memory) {}
 
   Vec3 centre{0};
   std::int32_t centre_id = 0;  ///< id that no ring vertex has
@@ -26,12 +27,13 @@ struct Star {
   Array<Vec3> old_normal;         ///< area vector of the triangle that spoke i replaces
   Array<Vec3> outer_normal;       ///< area vector of the triangle on the other side of ring edge i
   Array<std::int32_t> old_faces;  ///< all triangles that go, also the two at the edge
-  Array<Vec3> normal;             ///< area vector of spoke i, made by find_normals
+  Array<Vec3> normal;             ///< area vector of spoke i, made by find_spokes
+  Array<Box> spoke_box;           ///< of spoke i, likewise
 
   std::size_t size() const { return ring.size(); }
   std::size_t after(std::size_t i) const { return i + 1 == ring.size() ? 0 : i + 1; }
   void clear();
-  void find_normals();
+  void find_spokes();  ///< normal and spoke_box, from the rest
   Box box() const;
 };
 

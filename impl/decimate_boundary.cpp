@@ -276,7 +276,7 @@ class Decimator {
         add_to_star(spoke);
     }
     if (const VertexHandle to = mesh_.to_vertex_handle(h); at(locked_, to)) star_.centre_id = at(id_, to);
-    star_.find_normals();
+    star_.find_spokes();
     return star_.size() <= longest_ring;
   }
 

@@ -28,6 +28,28 @@ TEST(Threads, EachWithAContextOfItsOwn) {
   EXPECT_EQ(wrong, 0);
 }
 
+/// A solver that simplifies each of its meshes at every step.
+TEST(Threads, FourMeshesFiftyTimesEach) {
+  std::vector<Cube> meshes;
+  std::vector<std::vector<unsigned char>> wanted;
+  for (int n : {3, 4, 5, 6}) {
+    meshes.emplace_back(n);
+    wanted.push_back(undisturbed(meshes.back()));
+  }
+  std::atomic<int> wrong{0};
+  std::vector<std::thread> threads;
+  for (std::size_t t = 0; t < meshes.size(); t++)
+    threads.emplace_back([&, t] {
+      const Context context = make_context();
+      for (int step = 0; step < 50; step++) {
+        submit(context.get(), meshes[t]);
+        if (tetlod_run(context.get()) != TETLOD_OK || bytes_of(context.get()) != wanted[t]) wrong++;
+      }
+    });
+  for (std::thread &thread : threads) thread.join();
+  EXPECT_EQ(wrong, 0);
+}
+
 TEST(Threads, TheirNumberDoesNotMatter) {
   const Cube cube(9);
   const auto wanted = undisturbed(cube);
