@@ -311,7 +311,7 @@ class Decimator {
     const VertexHandle from = mesh_.from_vertex_handle(h), to = mesh_.to_vertex_handle(h);
     const HalfedgeHandle o = mesh_.opposite_halfedge_handle(h);
     if (!at(locked_, to)) {
-      at(scalar_, to) = value_along_edge(from, to, x);
+      at(scalar_, to) = value_along_edge(x, point(from), point(to), at(scalar_, from), at(scalar_, to));
       at(point_, to) = x;
       at(origin_, to) = -1;
     }
@@ -324,14 +324,6 @@ class Decimator {
     mesh_.collapse(h);
     edges_ -= 3;
     update_around(to);
-  }
-
-  double value_along_edge(VertexHandle from, VertexHandle to, const Vec3 &x) const {
-    const Vec3 edge = point(to) - point(from);
-    const double whole = length2(edge);
-    const double t = whole > 0 ? std::clamp(glm::dot(x - point(from), edge) / whole, 0.0, 1.0) : 0.5;
-    const auto [low, high] = std::minmax(at(scalar_, from), at(scalar_, to));
-    return std::clamp((1 - t) * at(scalar_, from) + t * at(scalar_, to), low, high);
   }
 
   void update_around(VertexHandle centre) {

@@ -34,6 +34,15 @@ inline double triangle_quality(const Vec3 &a, const Vec3 &b, const Vec3 &c) {
 /// The point of a triangle nearest to p, as barycentric weights.
 Vec3 nearest_in_triangle(const Vec3 &p, const Vec3 &a, const Vec3 &b, const Vec3 &c);
 
+/// Linear between the values at the ends, at the point of the edge nearest to x; never beyond them by rounding.
+inline double value_along_edge(const Vec3 &x, const Vec3 &from, const Vec3 &to, double value_from, double value_to) {
+  const Vec3 edge = to - from;
+  const double whole = length2(edge);
+  const double t = whole > 0 ? std::clamp(glm::dot(x - from, edge) / whole, 0.0, 1.0) : 0.5;
+  const auto [low, high] = std::minmax(value_from, value_to);
+  return std::clamp((1 - t) * value_from + t * value_to, low, high);
+}
+
 /// What a triangle adds to the winding number of p: its solid angle (Van Oosterom and Strackee 1983) over 4 pi,
 /// positive from its inner side.
 inline double winding_share(const Vec3 &p, const Vec3 &x, const Vec3 &y, const Vec3 &z) {

@@ -1,0 +1,161 @@
+#include "meshes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "extract_boundary.hpp"
+#include "geometry.hpp"
+#include "remesh_surfaces.hpp"
+
+namespace tetlod::test {
+
+namespace {
+
+/// The tets of a cell: from its lowest corner to its highest one, a step along each axis in any of six orders.
+void add_cell(Mesh &mesh, const std::function<std::int32_t(const Cell &)> &id, const Cell &cell) {
+  std::array<std::size_t, 3> order{0, 1, 2};
+  do {
+    Cell corner = cell;
+    Tet tet{id(corner), 0, 0, 0};
+    for (std::size_t k = 0; k < 3; k++) {
+      corner[order[k]]++;
+      tet[k + 1] = id(corner);
+    }
+    mesh.tets.push_back(tet);
+  } while (std::next_permutation(order.begin(), order.end()));
+}
+
+}  // namespace
+
+Mesh kuhn_solid(const Cell &cells, const std::function<bool(const Cell &)> &solid) {
+  Mesh mesh;
+  std::map<Cell, std::int32_t> ids;
+  const auto id = [&](const Cell &corner) {
+    const auto [found, is_new] = ids.emplace(corner, std::int32_t(mesh.points.size()));
+    if (is_new) mesh.points.push_back(Vec3(corner[0], corner[1], corner[2]));
+    return found->second;
+  };
+  for (int x = 0; x < cells[0]; x++)
+    for (int y = 0; y < cells[1]; y++)
+      for (int z = 0; z < cells[2]; z++)
+        if (solid({x, y, z})) add_cell(mesh, id, {x, y, z});
+  mesh.scalars.assign(mesh.points.size(), 0.0);
+  return mesh;
+}
+
+Mesh kuhn_cube(int n) {
+  Mesh mesh = kuhn_solid({n, n, n}, [](const Cell &) { return true; });
+  transform(mesh, [n](const Vec3 &p) { return p / double(n); });
+  return mesh;
+}
+
+Mesh random_solid(int n, double probability, unsigned seed) {
+  std::mt19937_64 random(seed);
+  std::bernoulli_distribution is_solid(probability);
+  return kuhn_solid({n, n, n}, [&](const Cell &c) { return is_solid(random) || c == Cell{0, 0, 0}; });
+}
+
+void set_scalars(Mesh &mesh, const Field &field) {
+  mesh.scalars.clear();
+  for (const Vec3 &p : mesh.points) mesh.scalars.push_back(field(p));
+}
+
+void transform(Mesh &mesh, const std::function<Vec3(const Vec3 &)> &function) {
+  for (Vec3 &p : mesh.points) p = function(p);
+}
+
+void append(Mesh &to, const Mesh &from) {
+  const auto first = std::int32_t(to.points.size());
+  to.points.insert(to.points.end(), from.points.begin(), from.points.end());
+  to.scalars.insert(to.scalars.end(), from.scalars.begin(), from.scalars.end());
+  for (Tet t : from.tets) {
+    for (std::int32_t &v : t) v += first;
+    to.tets.push_back(t);
+  }
+}
+
+void shuffle(Mesh &mesh, unsigned seed) {
+  std::mt19937_64 random(seed);
+  for (Tet &t : mesh.tets) std::shuffle(t.begin(), t.end(), random);
+  std::shuffle(mesh.tets.begin(), mesh.tets.end(), random);
+}
+
+double volume_of(const Mesh &mesh) {
+  double sum = 0;
+  const auto at = [&](std::int32_t v) { return mesh.points[std::size_t(v)]; };
+  for (const Tet &t : mesh.tets) sum += std::abs(det(at(t[0]), at(t[1]), at(t[2]), at(t[3]))) / 6;
+  return sum;
+}
+
+TetMesh as_result(const Mesh &mesh, Memory &memory) {
+  TetMesh result(memory);
+  result.points.assign(mesh.points.begin(), mesh.points.end());
+  result.scalars.assign(mesh.scalars.begin(), mesh.scalars.end());
+  const auto at = [&](std::int32_t v) { return mesh.points[std::size_t(v)]; };
+  for (Tet t : mesh.tets) {
+    if (det(at(t[0]), at(t[1]), at(t[2]), at(t[3])) < 0) std::swap(t[2], t[3]);
+    result.tets.push_back(t);
+  }
+  return result;
+}
+
+Surface surface_of(const Mesh &mesh, Job &job) {
+  Boundary boundary(job.memory);
+  extract_boundary(mesh.view(), job, boundary);
+  Surface surface(job.memory);
+  make_surface(mesh.view(), boundary.triangles, job, surface);
+  return surface;
+}
+
+Surface random_blob(Memory &memory, int n, unsigned seed) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  std::vector<Vec3> waves;
+  for (int i = 0; i < 5; i++) waves.push_back(3.0 * Vec3(uniform(random), uniform(random), uniform(random)));
+  Surface surface = sphere(memory, n);
+  transform(surface, [&](const Vec3 &p) {
+    double radius = 1;
+    for (const Vec3 &wave : waves) radius += 0.1 * std::sin(glm::dot(wave, p) + wave.x);
+    return radius * p;
+  });
+  complete(surface, [](const Vec3 &p) { return p.x; });
+  return surface;
+}
+
+Surface spiky_star(Memory &memory, int n) {
+  Surface surface = box(memory, n, Vec3(-1), Vec3(1));
+  transform(surface, [](const Vec3 &p) {
+    // Near the middle of a face two coordinates are small and the third is 1: that place is drawn out.
+    const Vec3 size = glm::abs(p);
+    const double largest = std::max({size.x, size.y, size.z});
+    const double off = (size.x + size.y + size.z - largest) / largest;
+    const double radius = 0.2 + 0.8 * std::pow(std::max(0.0, 1 - off), 3);
+    return radius * glm::normalize(p);
+  });
+  complete(surface, [](const Vec3 &p) { return p.x; });
+  return surface;
+}
+
+void complete(Surface &surface, const Field &field) {
+  surface.scalars.clear();
+  surface.origin.clear();
+  for (std::size_t i = 0; i < surface.points.size(); i++) {
+    surface.scalars.push_back(field(surface.points[i]));
+    surface.origin.push_back(std::int32_t(i));
+  }
+}
+
+Input input_of(const Mesh &mesh) {
+  Input input;
+  const auto *coordinates = reinterpret_cast<const double *>(mesh.points.data());
+  for (std::size_t k = 0; k < 3; k++)
+    input.xyz[k] =
+        strided(mesh.points.empty() ? nullptr : coordinates + k, mesh.points.size(), 1, 3, ElementType::float64);
+  const std::int32_t *corners = mesh.tets.empty() ? nullptr : mesh.tets.data()->data();
+  input.tets = strided(corners, mesh.tets.size(), 4, 4, ElementType::int32);
+  input.scalars = strided(mesh.scalars.data(), mesh.scalars.size(), 1, 1, ElementType::float64);
+  return input;
+}
+
+}  // namespace tetlod::test

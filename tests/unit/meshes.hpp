@@ -1,0 +1,91 @@
+// Generated meshes and surfaces for the tests of the stages.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <random>
+#include <vector>
+
+#include "job.hpp"
+#include "mesh.hpp"
+#include "pipeline.hpp"
+
+namespace tetlod::test {
+
+/// What a stage wants from its run.
+struct Host {
+  explicit Host(int threads = 1) : parallel(threads) {}
+  Memory memory;
+  Parallel parallel;
+  Job job{memory, parallel};
+};
+
+/// A tet mesh with arrays of its own.
+struct Mesh {
+  std::vector<Vec3> points;
+  std::vector<double> scalars;
+  std::vector<Tet> tets;
+
+  MeshView view() const {
+    return {{points.data(), points.size()}, {scalars.data(), scalars.size()}, {tets.data(), tets.size()}};
+  }
+};
+
+using Cell = std::array<int, 3>;
+using Field = std::function<double(const Vec3 &)>;
+
+/// The cells of a lattice of unit cubes for which `solid` holds, each cut into six tets along the diagonal from its
+/// lowest to its highest corner (Kuhn), so that neighbours fit. Cell c has the tets from 6 times its rank on. Points
+/// that no cell uses are left out. Scalars are zero.
+Mesh kuhn_solid(const Cell &cells, const std::function<bool(const Cell &)> &solid);
+
+/// The cube [0, 1]^3 in n^3 cells.
+Mesh kuhn_cube(int n);
+
+/// n^3 cells, each solid with the given probability, the lowest always: touches itself at edges and vertices, has
+/// tunnels, cavities and several components.
+Mesh random_solid(int n, double probability, unsigned seed);
+
+void set_scalars(Mesh &mesh, const Field &field);
+void transform(Mesh &mesh, const std::function<Vec3(const Vec3 &)> &function);
+void append(Mesh &to, const Mesh &from);
+
+/// The tets in random order, their corners in random order: half of them wind the other way.
+void shuffle(Mesh &mesh, unsigned seed);
+
+double volume_of(const Mesh &mesh);
+
+/// The whole mesh as a result of the pipeline, tets wound positive.
+TetMesh as_result(const Mesh &mesh, Memory &memory);
+
+/// The boundary as decimation gets it.
+Surface surface_of(const Mesh &mesh, Job &job);
+
+/// A sphere whose radius is a smooth random function of the direction, between 0.5 and 1.5, in 12 n^2 triangles.
+Surface random_blob(Memory &memory, int n, unsigned seed);
+
+/// A star of six thin spikes: a small cube's faces drawn out to points, in 12 n^2 triangles; n is even.
+Surface spiky_star(Memory &memory, int n);
+
+/// Values and origins for a surface that has none: the values of `field`, origin i for point i.
+void complete(Surface &surface, const Field &field);
+
+/// A contiguous array of the caller, `stride` elements from one tuple to the next.
+template <class T>
+StridedArray strided(const T *data, std::size_t tuples, int components, std::size_t stride, ElementType type) {
+  StridedArray array;
+  array.type = type;
+  array.tuples = std::int64_t(tuples);
+  array.components = components;
+  array.tuple_stride = std::int64_t(stride * sizeof(T));
+  array.component_stride = sizeof(T);
+  array.data = reinterpret_cast<unsigned char *>(const_cast<T *>(data));
+  array.present = true;
+  return array;
+}
+
+/// The mesh as a caller of doubles and int32 submits it.
+Input input_of(const Mesh &mesh);
+
+}  // namespace tetlod::test

@@ -1,0 +1,292 @@
+// The whole run on generated meshes, with the real worker: fields that come back exact, and a report that adds up.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "brute_force.hpp"
+#include "measure_error.hpp"
+#include "meshes.hpp"
+#include "pipeline.hpp"
+#include "status.hpp"
+
+namespace tetlod {
+namespace {
+
+using namespace test;
+
+double linear(const Vec3 &p) { return 5 + 2 * p.x - 3 * p.y + p.z; }
+double waves(const Vec3 &p) { return std::sin(6 * p.x) * std::cos(5 * p.y) + p.z; }
+
+class WholeRun : public testing::Test {
+ protected:
+  Host host;
+  Worker worker{TETLOD_REMESH};
+  Result result{host.memory};
+  Options options;
+
+  void simplify(const Mesh &mesh) {
+    result = Result(host.memory);
+    run(input_of(mesh), options, worker, host.job, result);
+  }
+
+  Status status(const Mesh &mesh) {
+    try {
+      simplify(mesh);
+      return Status::ok;
+    } catch (const Error &error) {
+      return error.status();
+    }
+  }
+
+  const TetMesh &mesh() const { return result.mesh; }
+  const Report &report() const { return result.report; }
+
+  Mesh copy_of_result() const {
+    return {{mesh().points.begin(), mesh().points.end()},
+            {mesh().scalars.begin(), mesh().scalars.end()},
+            {mesh().tets.begin(), mesh().tets.end()}};
+  }
+
+  /// What the library promises of every result.
+  void expect_sound(const Mesh &original, double volume_error) {
+    const auto at = [&](std::int32_t v) { return mesh().points[std::size_t(v)]; };
+    std::vector<int> used(mesh().points.size(), 0);
+    for (const Tet &t : mesh().tets) {
+      ASSERT_GT(glm::dot(glm::cross(at(t[1]) - at(t[0]), at(t[2]) - at(t[0])), at(t[3]) - at(t[0])), 0);
+      for (std::int32_t v : t) used[std::size_t(v)] = 1;
+    }
+    EXPECT_EQ(std::count(used.begin(), used.end(), 0), 0) << "points that no tet uses";
+    const Mesh copy = copy_of_result();
+    const std::multiset<Triangle> faces = brute_boundary(copy);
+    EXPECT_EQ(oriented_triangles(mesh().boundary), faces);
+    const std::multiset<Triangle> original_faces = brute_boundary(original);
+    const std::vector<Triangle> before(original_faces.begin(), original_faces.end());
+    const SurfaceFacts was = facts_of({before.data(), before.size()}), is = facts_of(mesh().boundary);
+    EXPECT_TRUE(is.closed);
+    EXPECT_EQ(is.components, was.components);
+    EXPECT_EQ(is.euler, was.euler);
+    EXPECT_LE(is.nonmanifold_edges, was.nonmanifold_edges);
+    EXPECT_NEAR(volume_of(copy) / volume_of(original), 1, volume_error);
+    const auto [low, high] = std::minmax_element(original.scalars.begin(), original.scalars.end());
+    for (double s : mesh().scalars) EXPECT_TRUE(s >= *low && s <= *high);
+    expect_report(original, was);
+  }
+
+  void expect_report(const Mesh &original, const SurfaceFacts &was) const {
+    const Report &r = report();
+    EXPECT_EQ(r.points_in, std::int64_t(original.points.size()));
+    EXPECT_EQ(r.tets_in, std::int64_t(original.tets.size()));
+    EXPECT_EQ(r.boundary_points_in, was.vertices);
+    EXPECT_EQ(r.boundary_edges_in, was.edges);
+    EXPECT_EQ(r.boundary_triangles_in, was.triangles);
+    EXPECT_EQ(r.nonmanifold_edges, was.nonmanifold_edges);
+    EXPECT_EQ(r.interior_points_in + r.boundary_points_in + r.unused_points + r.merged_points + r.nonfinite_points,
+              r.points_in);
+    const SurfaceFacts is = facts_of(mesh().boundary);
+    EXPECT_EQ(r.boundary_points_out, is.vertices);
+    EXPECT_EQ(r.boundary_edges_out, is.edges);
+    EXPECT_EQ(r.boundary_triangles_out, is.triangles);
+    EXPECT_LE(r.samples, r.selected_samples - r.samples_outside - r.samples_too_near);
+    EXPECT_EQ(r.points_out, r.boundary_points_out + r.samples + r.steiner_points);
+    EXPECT_EQ(r.points_out, std::int64_t(mesh().points.size()));
+    EXPECT_EQ(r.tets_out, std::int64_t(mesh().tets.size()));
+    EXPECT_GE(r.remesh_attempts, 1);
+    const double stages = std::accumulate(r.seconds.begin(), r.seconds.end(), 0.0);
+    EXPECT_LE(stages, r.seconds_total);
+    EXPECT_GT(r.peak_bytes, 0u);
+    EXPECT_GT(r.worker_peak_bytes, 0u);
+    EXPECT_EQ(r.scalar_min, *std::min_element(original.scalars.begin(), original.scalars.end()));
+    EXPECT_EQ(r.scalar_max, *std::max_element(original.scalars.begin(), original.scalars.end()));
+  }
+
+  /// Samples are original vertices, with their values, bit for bit.
+  void expect_samples(const Mesh &original) const {
+    const std::size_t first = std::size_t(report().boundary_points_out);
+    for (std::size_t i = first; i < first + std::size_t(report().samples); i++) {
+      const auto found = std::find(original.points.begin(), original.points.end(), mesh().points[i]);
+      ASSERT_NE(found, original.points.end());
+      ASSERT_EQ(mesh().scalars[i], original.scalars[std::size_t(found - original.points.begin())]);
+    }
+  }
+};
+
+/// The faces of a cube stay flat where no edge of the cube is collapsed away from its line; a linear field is then
+/// exact wherever the new vertices lie on the edge they come from. Inside it is exact always.
+TEST_F(WholeRun, LinearFieldOnACube) {
+  Mesh original = kuhn_cube(8);
+  set_scalars(original, linear);
+  options.sigma = 1;
+  for (double rho : {0.0, 0.01, 0.1, 1.0}) {
+    options.rho = rho;
+    simplify(original);
+    expect_sound(original, 1e-12);
+    expect_samples(original);
+    for (std::size_t i = 0; i < mesh().points.size(); i++)
+      ASSERT_NEAR(mesh().scalars[i], linear(mesh().points[i]), 1e-12);
+    const FieldError e = measure_error(input_of(original), options, mesh(), 2, host.job);
+    EXPECT_LT(e.max, 1e-12);
+    EXPECT_LT(e.max_inner, 1e-12);
+    EXPECT_EQ(e.outside, 0);
+  }
+}
+
+TEST_F(WholeRun, FewerTheLargerRhoAndTheSmallerSigma) {
+  Mesh original = kuhn_cube(12);
+  set_scalars(original, waves);
+  std::int64_t before = std::int64_t(original.tets.size());
+  for (double part : {0.5, 0.2, 0.05}) {
+    options.sigma = part;
+    options.rho = 0.02 / part;
+    simplify(original);
+    expect_sound(original, 0.05);
+    expect_samples(original);
+    EXPECT_LT(report().tets_out, before);
+    EXPECT_LE(double(report().boundary_edges_out), std::ceil(part * double(report().boundary_edges_in)));
+    before = report().tets_out;
+    EXPECT_LT(measure_error(input_of(original), options, mesh(), 1, host.job).rms, 0.15);
+  }
+}
+
+TEST_F(WholeRun, ACavity) {
+  Mesh original = kuhn_solid({9, 9, 9}, [](const Cell &c) {
+    return std::min({c[0], c[1], c[2]}) < 3 || std::max({c[0], c[1], c[2]}) > 5;
+  });
+  set_scalars(original, linear);
+  options.sigma = 0.2;
+  simplify(original);
+  expect_sound(original, 0.05);
+  EXPECT_EQ(report().components, 2);
+  for (const Tet &t : mesh().tets) {
+    Vec3 middle(0);
+    for (std::int32_t v : t) middle += 0.25 * mesh().points[std::size_t(v)];
+    const Vec3 off = glm::abs(middle - Vec3(4.5));
+    EXPECT_GT(std::max({off.x, off.y, off.z}), 1.0) << "a tet in the cavity";
+  }
+}
+
+TEST_F(WholeRun, SolidsThatTouchTunnelsAndAll) {
+  for (unsigned seed = 0; seed < 4; seed++) {
+    Mesh original = random_solid(5, 0.6, seed);
+    set_scalars(original, waves);
+    options.sigma = 0.5;
+    simplify(original);
+    expect_sound(original, 0.2);
+  }
+}
+
+TEST_F(WholeRun, MergedAndDroppedAreCounted) {
+  Mesh original = kuhn_cube(4);
+  const std::size_t points = original.points.size(), tets = original.tets.size();
+  Mesh beside = original;
+  transform(beside, [](const Vec3 &p) { return p + Vec3(1, 0, 0); });
+  append(original, beside);
+  original.tets.push_back({0, 0, 1, 2});
+  original.points.push_back(Vec3(9));
+  set_scalars(original, linear);
+  original.scalars.back() = 1e9;  // no tet uses it
+  options.sigma = 1;
+  simplify(original);
+  EXPECT_EQ(report().merged_points, 25);
+  EXPECT_EQ(report().dropped_tets, 1);
+  EXPECT_EQ(report().unused_points, 1);
+  EXPECT_EQ(report().points_in, std::int64_t(2 * points + 1));
+  EXPECT_EQ(report().tets_in, std::int64_t(2 * tets + 1));
+  EXPECT_EQ(report().components, 1);
+  EXPECT_NEAR(volume_of(copy_of_result()), 2, 1e-12);
+  EXPECT_EQ(report().interior_points_in + report().boundary_points_in + report().unused_points + report().merged_points,
+            report().points_in);
+  for (std::size_t i = 0; i < mesh().points.size(); i++)
+    ASSERT_NEAR(mesh().scalars[i], linear(mesh().points[i]), 1e-12);
+}
+
+TEST_F(WholeRun, WindingDoesNotMatter) {
+  Mesh original = kuhn_cube(6);
+  set_scalars(original, waves);
+  Mesh turned = original;
+  for (std::size_t t = 0; t < turned.tets.size(); t += 2) std::swap(turned.tets[t][1], turned.tets[t][2]);
+  simplify(original);
+  const std::int64_t tets = report().tets_out;
+  simplify(turned);
+  expect_sound(turned, 0.1);
+  EXPECT_NEAR(double(report().tets_out), double(tets), 0.1 * double(tets));
+}
+
+TEST_F(WholeRun, ThreadsAndRepetitionGiveTheSameBytes) {
+  Mesh original = random_solid(9, 0.85, 1);
+  set_scalars(original, waves);
+  options.sigma = 0.3;
+  simplify(original);
+  Host two(2);
+  for (Host *with : {&host, &two}) {
+    Worker other(TETLOD_REMESH);
+    Result again(with->memory);
+    run(input_of(original), options, other, with->job, again);
+    EXPECT_EQ(again.report.hash, report().hash);
+    ASSERT_EQ(again.mesh.points.size(), mesh().points.size());
+    ASSERT_EQ(again.mesh.tets.size(), mesh().tets.size());
+    EXPECT_EQ(std::memcmp(again.mesh.points.data(), mesh().points.data(), sizeof(Vec3) * mesh().points.size()), 0);
+    EXPECT_EQ(std::memcmp(again.mesh.tets.data(), mesh().tets.data(), sizeof(Tet) * mesh().tets.size()), 0);
+    EXPECT_EQ(std::memcmp(again.mesh.scalars.data(), mesh().scalars.data(), 8 * mesh().scalars.size()), 0);
+  }
+  options.rho = 0.05;
+  simplify(original);
+  Result other(host.memory);
+  run(input_of(original), Options(), worker, host.job, other);
+  EXPECT_NE(other.report.hash, report().hash);
+}
+
+TEST_F(WholeRun, AtAnyScaleAndPlace) {
+  Mesh original = kuhn_cube(6);
+  set_scalars(original, waves);
+  for (double scale : {1e-9, 1e9}) {
+    Mesh moved = original;
+    transform(moved, [scale](const Vec3 &p) { return scale * (p + Vec3(10, -20, 5)); });
+    for (double &s : moved.scalars) s *= 1e-7;
+    simplify(moved);
+    expect_sound(moved, 0.1);
+  }
+}
+
+TEST_F(WholeRun, EveryStageIsTold) {
+  Mesh original = kuhn_cube(6);
+  set_scalars(original, waves);
+  std::vector<Stage> stages;
+  host.job.progress = [&](Stage stage, double fraction) {
+    EXPECT_TRUE(fraction >= 0 && fraction <= 1);
+    if (std::find(stages.begin(), stages.end(), stage) == stages.end()) stages.push_back(stage);
+    return false;
+  };
+  simplify(original);
+  ASSERT_EQ(stages.size(), std::size_t(Stage::count));
+  const std::vector<Stage> first{Stage::prepare, Stage::boundary}, last{Stage::cull, Stage::remesh, Stage::values};
+  EXPECT_TRUE(std::equal(first.begin(), first.end(), stages.begin()));
+  EXPECT_TRUE(std::equal(last.begin(), last.end(), stages.end() - 3));
+}
+
+TEST_F(WholeRun, CanBeCancelledInEveryStage) {
+  Mesh original = kuhn_cube(6);
+  set_scalars(original, waves);
+  for (int s = 0; s < int(Stage::count); s++) {
+    host.job.progress = [s](Stage stage, double) { return int(stage) == s; };
+    EXPECT_EQ(status(original), Status::cancelled) << s;
+    host.job.progress = nullptr;
+    EXPECT_EQ(status(original), Status::ok);
+  }
+}
+
+TEST_F(WholeRun, WhatIsNoSolidIsRefused) {
+  Mesh flat = kuhn_cube(3);
+  transform(flat, [](const Vec3 &p) { return Vec3(p.x, p.y, 0); });
+  const Status of_flat = status(flat);
+  EXPECT_TRUE(of_flat == Status::mesh_degenerate || of_flat == Status::mesh_empty) << int(of_flat);
+  EXPECT_EQ(status(Mesh()), Status::mesh_empty);
+}
+
+}  // namespace
+}  // namespace tetlod
