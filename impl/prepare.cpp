@@ -155,13 +155,9 @@ void drop_and_rename(Span<const std::int32_t> representative, Span<const std::ui
   original.view.tets = original.tets;
 }
 
-/// Products of six lengths must stay in the range of doubles; a power of two is exact.
 void scale_extreme_coordinates(Job &job, Original &original) {
-  constexpr int far_from_one = 100;
-  double most = 0;
-  for (int k = 0; k < 3; k++) most = std::max({most, std::abs(original.box.low[k]), std::abs(original.box.high[k])});
-  const int exponent = most > 0 ? std::ilogb(most) : 0;
-  if (std::abs(exponent) <= far_from_one) return;
+  const int exponent = extreme_exponent(original.box);
+  if (exponent == 0) return;
   original.exponent = exponent;
   const auto scaled = [&](const Vec3 &p) { return times_power_of_two(p, -exponent); };
   Array<Vec3> points(&job.memory);
@@ -196,6 +192,14 @@ void check_counts(const Input &input) {
 }
 
 }  // namespace
+
+int extreme_exponent(const Box &box) {
+  constexpr int far_from_one = 100;
+  double most = 0;
+  for (int k = 0; k < 3; k++) most = std::max({most, std::abs(box.low[k]), std::abs(box.high[k])});
+  const int exponent = most > 0 && std::isfinite(most) ? std::ilogb(most) : 0;
+  return std::abs(exponent) > far_from_one ? exponent : 0;
+}
 
 void prepare_original(const Input &input, const Options &options, Job &job, Original &original) {
   check_counts(input);

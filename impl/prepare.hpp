@@ -23,6 +23,10 @@ struct Original {
   Box box;                                ///< of the vertices that tets use
 };
 
+/// The power of two that coordinates in this box have to be divided by, so that products of six lengths stay in the
+/// range of doubles; 0 unless they are extreme.
+int extreme_exponent(const Box &box);
+
 /// Coordinates so large or small that their sixth powers leave the range of doubles are scaled, exactly.
 /// Throws Status::mesh_empty, mesh_index, mesh_nonfinite, mesh_too_large.
 void prepare_original(const Input &input, const Options &options, Job &job, Original &original);

@@ -84,10 +84,22 @@ class Inspector {
 
   static bool finite(const Vec3 &p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
-  void merge() {
-    Box box;
+  /// As a run does, and for its reason.
+  Box scale_used_points() {
+    Box box, scaled;
     for (std::size_t v = 0; v < points_.size(); v++)
       if (used_[v]) box.add(points_[v]);
+    const int exponent = extreme_exponent(box);
+    for (std::size_t v = 0; v < points_.size(); v++) {
+      if (!used_[v]) continue;
+      if (exponent != 0) points_[v] = times_power_of_two(points_[v], -exponent);
+      scaled.add(points_[v]);
+    }
+    return scaled;
+  }
+
+  void merge() {
+    const Box box = scale_used_points();
     const double tolerance = options_.merge_tolerance * box.diagonal();
     Array<std::int32_t> representative(&job_.memory);
     merge_points(points_, used_, std::isfinite(tolerance) ? tolerance : 0, job_, representative);
