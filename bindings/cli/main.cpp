@@ -6,19 +6,19 @@
 #include <new>
 
 #include "arguments.hpp"
+#include "arrays.hpp"
 #include "failure.hpp"
 #include "grid_cells.hpp"
 #include "interrupt.hpp"
 #include "output_file.hpp"
 #include "progress_bar.hpp"
+#include "quiet_vtk.hpp"
 #include "read_grid.hpp"
 #include "report.hpp"
 #include "simplify.hpp"
 #include "steering_field.hpp"
 #include "stopwatch.hpp"
 #include "table2.h"
-#include "vtk_arrays.hpp"
-#include "vtk_messages.hpp"
 #include "write_grid.hpp"
 
 namespace cli {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "vtk_messages.hpp"
+#include "quiet_vtk.hpp"
 
 namespace cli {
 

@@ -1,8 +1,8 @@
 #include "simplify.hpp"
 
+#include "arrays.hpp"
 #include "failure.hpp"
 #include "interrupt.hpp"
-#include "vtk_arrays.hpp"
 
 namespace cli {
 namespace {

@@ -11,9 +11,9 @@
 #include <vtkUnstructuredGridWriter.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
+#include "arrays.hpp"
 #include "failure.hpp"
 #include "output_file.hpp"
-#include "vtk_arrays.hpp"
 
 namespace cli {
 namespace {

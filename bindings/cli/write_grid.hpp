@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "simplify.hpp"
-#include "vtk_messages.hpp"
+#include "quiet_vtk.hpp"
 
 namespace cli {
 

@@ -1,4 +1,4 @@
-#include "vtk_arrays.hpp"
+#include "arrays.hpp"
 
 #include <vtkDoubleArray.h>
 

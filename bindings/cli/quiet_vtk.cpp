@@ -1,4 +1,4 @@
-#include "vtk_messages.hpp"
+#include "quiet_vtk.hpp"
 
 #include <vtkLogger.h>
 #include <vtkObjectFactory.h>

@@ -1,0 +1,36 @@
+// The meshes that are simplified: one read from a file, one made here.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace bench {
+
+using Point = std::array<double, 3>;
+using Tet = std::array<std::int32_t, 4>;
+
+struct Mesh {
+  std::vector<Point> points;
+  std::vector<Tet> tets;
+  std::vector<double> values;  // one a point
+};
+
+// Greatest less least value; 1 for a constant field, so that errors stay absolute there.
+double range_of(const std::vector<double> &values);
+
+// The tets of a .vtu file with its active scalars, or its first point data of one component. Throws
+// std::runtime_error.
+Mesh read_mesh(const std::string &path);
+
+// `name` in the folder that the environment's TETLOD_DATA_DIR names, else in ../shared/data beside the checkout.
+std::optional<std::string> find_data(const std::string &name);
+
+// A box of cubes, each cut into six tets around its diagonal, as near to `tets` as whole cubes allow. The field is a
+// bent front, steep across and smooth along, that travels through a slow swell as `time` goes from 0 to 1.
+Mesh make_front_mesh(std::int64_t tets, double time);
+
+}  // namespace bench

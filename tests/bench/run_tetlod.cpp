@@ -1,0 +1,89 @@
+#include "run_tetlod.hpp"
+
+#include <memory>
+#include <stdexcept>
+
+#include "stopwatch.hpp"
+
+namespace bench {
+namespace {
+
+struct Destroy {
+  void operator()(tetlod_context *context) const { tetlod_destroy(context); }
+};
+using Context = std::unique_ptr<tetlod_context, Destroy>;
+
+void check(tetlod_status status, const tetlod_context *context) {
+  if (status == TETLOD_OK) return;
+  std::string message(tetlod_last_message(context, nullptr, 0), '\0');
+  tetlod_last_message(context, message.data(), message.size() + 1);
+  throw std::runtime_error("tetlod: " + (message.empty() ? tetlod_status_text(status) : message));
+}
+
+Context make_context(const Parameters &parameters) {
+  tetlod_context *made = nullptr;
+  check(tetlod_create(nullptr, &made), nullptr);
+  Context context(made);
+  check(tetlod_set_preset(made, TETLOD_PRESET_PAPER), made);
+  check(tetlod_set_rho(made, parameters.rho), made);
+  check(tetlod_set_sigma(made, parameters.sigma), made);
+  check(tetlod_set_int(made, TETLOD_OPT_THREADS, parameters.threads), made);
+  return context;
+}
+
+// The library reads what it is lent and writes nothing there.
+tetlod_array lent(std::int32_t type, std::size_t tuples, std::int32_t components, const void *data) {
+  tetlod_array array{};
+  array.struct_size = sizeof array;
+  array.type = type;
+  array.tuples = static_cast<std::int64_t>(tuples);
+  array.components = components;
+  array.data = const_cast<void *>(data);
+  return array;
+}
+
+void submit(tetlod_context *context, const Mesh &mesh) {
+  const tetlod_array points = lent(TETLOD_FLOAT64, mesh.points.size(), 3, mesh.points.data());
+  const tetlod_array tets = lent(TETLOD_INT32, mesh.tets.size(), 4, mesh.tets.data());
+  const tetlod_array values = lent(TETLOD_FLOAT64, mesh.values.size(), 1, mesh.values.data());
+  check(tetlod_submit_points(context, &points), context);
+  check(tetlod_submit_tets(context, &tets, 0), context);
+  check(tetlod_submit_scalars(context, "scalar", &values), context);
+}
+
+struct Views {
+  tetlod_array points, tets, values;
+};
+
+Views view(tetlod_context *context) {
+  Views views{};
+  for (tetlod_array *const array : {&views.points, &views.tets, &views.values}) array->struct_size = sizeof *array;
+  check(tetlod_view_points(context, &views.points), context);
+  check(tetlod_view_tets(context, &views.tets), context);
+  check(tetlod_view_scalars(context, &views.values), context);
+  return views;
+}
+
+template <class T>
+std::vector<T> copied(const tetlod_array &array) {
+  const T *const begin = static_cast<const T *>(array.data);
+  return std::vector<T>(begin, begin + array.tuples);
+}
+
+}  // namespace
+
+TetlodRun run_tetlod(const Mesh &mesh, const Parameters &parameters) {
+  const Stopwatch watch;
+  const Context context = make_context(parameters);
+  submit(context.get(), mesh);
+  check(tetlod_run(context.get()), context.get());
+  const Views views = view(context.get());
+  TetlodRun run{};
+  run.seconds = watch.seconds();
+  run.report.struct_size = sizeof run.report;
+  check(tetlod_fetch_report(context.get(), &run.report), context.get());
+  run.result = {copied<Point>(views.points), copied<Tet>(views.tets), copied<double>(views.values)};
+  return run;
+}
+
+}  // namespace bench

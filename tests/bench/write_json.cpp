@@ -1,0 +1,80 @@
+#include "write_json.hpp"
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+namespace bench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(const Spread &spread) {
+  return {{"median", spread.median}, {"least", spread.least}, {"most", spread.most}};
+}
+
+Json json_of(const FieldError &error) {
+  return {{"rms", error.rms},
+          {"max", error.max},
+          {"outside", error.outside},
+          {"rms_inner", error.rms_inner},
+          {"max_inner", error.max_inner},
+          {"outside_inner", error.outside_inner}};
+}
+
+Json json_of(const Side &side) {
+  return {{"tets_out", side.tets_out},
+          {"seconds", json_of(side.seconds)},
+          {"rms", json_of(side.rms)},
+          {"error", json_of(side.error)}};
+}
+
+Json stages_of(const tetlod_run_report &run) {
+  return {{"prepare", run.seconds_prepare}, {"boundary", run.seconds_boundary}, {"decimate", run.seconds_decimate},
+          {"sample", run.seconds_sample},   {"cull", run.seconds_cull},         {"remesh", run.seconds_remesh},
+          {"values", run.seconds_values},   {"total", run.seconds_total}};
+}
+
+Json counts_of(const tetlod_run_report &run) {
+  return {{"boundary_edges_in", run.boundary_edges_in},
+          {"boundary_edges_out", run.boundary_edges_out},
+          {"selected_samples", run.selected_samples},
+          {"samples_outside", run.samples_outside},
+          {"samples_too_near", run.samples_too_near},
+          {"steiner_points", run.steiner_points},
+          {"points_out", run.points_out},
+          {"remesh_attempts", run.remesh_attempts},
+          {"peak_bytes", run.peak_bytes},
+          {"worker_peak_bytes", run.worker_peak_bytes}};
+}
+
+Json json_of(const Contest &contest) {
+  return {
+      {"name", contest.name},          {"points_in", contest.points_in},       {"tets_in", contest.tets_in},
+      {"rho", contest.parameters.rho}, {"sigma", contest.parameters.sigma},    {"threads", contest.parameters.threads},
+      {"rounds", contest.rounds},      {"ratio", json_of(contest.ratio)},      {"tetlod", json_of(contest.tetlod)},
+      {"peer", json_of(contest.peer)}, {"seconds", stages_of(contest.report)}, {"counts", counts_of(contest.report)}};
+}
+
+Json json_of(const std::vector<Contest> &contests) {
+  Json list = Json::array();
+  for (const Contest &contest : contests) list.push_back(json_of(contest));
+  return list;
+}
+
+}  // namespace
+
+void write_json(const std::string &path, const std::vector<Contest> &contests, const std::optional<Growth> &growth) {
+  Json json = {{"tetlod", tetlod_build_info()}, {"contests", json_of(contests)}};
+  if (growth) {
+    json["growth"] = {{"sizes", json_of(growth->sizes)},
+                      {"tetlod_exponent", growth->tetlod_exponent},
+                      {"peer_exponent", growth->peer_exponent}};
+  }
+  std::ofstream file(path);
+  file << json.dump(2) << '\n';
+  file.close();
+  if (!file) throw std::runtime_error(path + ": cannot be written");
+}
+
+}  // namespace bench

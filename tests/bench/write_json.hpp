@@ -1,0 +1,13 @@
+// What was measured, for programs.
+#pragma once
+
+#include <optional>
+
+#include "growth.hpp"
+
+namespace bench {
+
+// Throws std::runtime_error when the file cannot be written.
+void write_json(const std::string &path, const std::vector<Contest> &contests, const std::optional<Growth> &growth);
+
+}  // namespace bench
