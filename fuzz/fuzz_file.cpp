@@ -1,0 +1,262 @@
+// The command line tool's reader: small .vtk and .vtu files with edits, and bytes that were never a file.
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "demand.hpp"
+#include "failure.hpp"
+#include "grid_cells.hpp"
+#include "read_grid.hpp"
+#include "session.hpp"
+#include "steering_field.hpp"
+#include "arrays.hpp"
+#include "quiet_vtk.hpp"
+
+namespace fuzz {
+
+namespace {
+
+// ---- Files that are in order ---------------------------------------------------------------------------------------
+
+/// The unit cube's corners and the middles of some edges, for cells of every kind.
+constexpr double places[][3] = {{0, 0, 0},   {1, 0, 0}, {1, 1, 0},     {0, 1, 0},   {0, 0, 1},   {1, 0, 1},
+                                {1, 1, 1},   {0, 1, 1}, {0.5, 0, 0},   {0.5, 0.5, 0}, {0, 0.5, 0}, {0, 0, 0.5},
+                                {0.5, 0, 0.5}, {0, 0.5, 0.5}, {2, 0, 0}, {0.5, 0.5, 2}};
+
+struct Cell {
+  int type;
+  std::vector<int> points;
+};
+
+using Cells = std::vector<Cell>;
+
+const Cells &known_grid(std::size_t which) {
+  static const Cells grids[] = {
+      {{10, {0, 1, 3, 4}}, {10, {1, 2, 3, 6}}, {10, {1, 3, 4, 6}}, {10, {1, 4, 5, 6}}, {10, {3, 4, 6, 7}}},
+      {{12, {0, 1, 2, 3, 4, 5, 6, 7}}, {14, {4, 5, 6, 7, 15}}, {5, {0, 1, 2}}},
+      {{13, {0, 1, 3, 4, 5, 7}}, {11, {0, 1, 3, 2, 4, 5, 7, 6}}, {10, {1, 2, 5, 14}}, {3, {0, 1}}},
+      {{24, {0, 1, 3, 4, 8, 9, 10, 11, 12, 13}}, {1, {15}}},
+      {{24, {0, 1, 3, 4, 8, 9, 10, 11, 12, 13}}},
+  };
+  return grids[which % std::size(grids)];
+}
+
+void write_places(std::ostream &out) {
+  for (const auto &p : places) out << p[0] << ' ' << p[1] << ' ' << p[2] << '\n';
+}
+
+void write_values(std::ostream &out) {
+  for (std::size_t i = 0; i < std::size(places); i++) out << double(i) / 2 << ' ';
+  out << '\n';
+}
+
+std::string legacy_file(const Cells &cells) {
+  std::ostringstream out;
+  out << "# vtk DataFile Version 3.0\nmade\nASCII\nDATASET UNSTRUCTURED_GRID\n";
+  out << "POINTS " << std::size(places) << " double\n";
+  write_places(out);
+  std::size_t size = 0;
+  for (const Cell &cell : cells) size += 1 + cell.points.size();
+  out << "CELLS " << cells.size() << ' ' << size << '\n';
+  for (const Cell &cell : cells) {
+    out << cell.points.size();
+    for (const int v : cell.points) out << ' ' << v;
+    out << '\n';
+  }
+  out << "CELL_TYPES " << cells.size() << '\n';
+  for (const Cell &cell : cells) out << cell.type << '\n';
+  out << "POINT_DATA " << std::size(places) << "\nSCALARS field double 1\nLOOKUP_TABLE default\n";
+  write_values(out);
+  return out.str();
+}
+
+std::string xml_file(const Cells &cells) {
+  std::ostringstream out, corners, ends, types;
+  std::size_t end = 0;
+  for (const Cell &cell : cells) {
+    for (const int v : cell.points) corners << v << ' ';
+    ends << (end += cell.points.size()) << ' ';
+    types << cell.type << ' ';
+  }
+  const auto array = [&](const char *type, const char *name, const std::string &text) {
+    out << "<DataArray type=\"" << type << "\" Name=\"" << name << "\" format=\"ascii\">\n" << text << "\n</DataArray>\n";
+  };
+  std::ostringstream xyz, values;
+  write_places(xyz);
+  write_values(values);
+  out << "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n";
+  out << "<Piece NumberOfPoints=\"" << std::size(places) << "\" NumberOfCells=\"" << cells.size() << "\">\n<PointData>\n";
+  array("Float64", "field", values.str());
+  out << "</PointData>\n<Points>\n";
+  array("Float32", "Points\" NumberOfComponents=\"3", xyz.str());
+  out << "</Points>\n<Cells>\n";
+  array("Int64", "connectivity", corners.str());
+  array("Int64", "offsets", ends.str());
+  array("UInt8", "types", types.str());
+  out << "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+  return out.str();
+}
+
+// ---- Edits ---------------------------------------------------------------------------------------------------------
+
+/// Where a word begins that is a number, or any word when there is none.
+std::vector<std::size_t> numbers_of(const std::string &text) {
+  std::vector<std::size_t> found;
+  for (std::size_t i = 1; i < text.size(); i++)
+    if (!std::isalnum(static_cast<unsigned char>(text[i - 1])) && text[i - 1] != '.' &&
+        std::isdigit(static_cast<unsigned char>(text[i])))
+      found.push_back(i);
+  return found;
+}
+
+std::size_t word_length(const std::string &text, std::size_t at) {
+  return std::min(text.find_first_of(" \n\"<>", at), text.size()) - at;
+}
+
+void replace_number(std::string &text, Bytes &in) {
+  static const char *const words[] = {"0",   "-1",  "1",    "2",   "3",          "4",   "5",  "10",   "12",  "14",
+                                      "16",  "24",  "42",   "255", "999999",     "nan", "",   "1e300", "-1e9", "x",
+                                      "inf", "1 1", "1e-9", "8",   "2147483648", "27",  "68", "71",   "78",  "0.5"};
+  const std::vector<std::size_t> numbers = numbers_of(text);
+  if (numbers.empty()) return;
+  const std::size_t at = numbers[in.below(numbers.size())];
+  text.replace(at, word_length(text, at), words[in.below(std::size(words))]);
+}
+
+std::size_t line_begin(const std::string &text, Bytes &in) {
+  const std::size_t at = text.rfind('\n', in.below(text.size()));
+  return at == std::string::npos ? 0 : std::min(at + 1, text.size());
+}
+
+std::size_t line_end(const std::string &text, std::size_t begin) {
+  const std::size_t end = text.find('\n', begin);
+  return end == std::string::npos ? text.size() : end + 1;
+}
+
+void drop_line(std::string &text, Bytes &in) {
+  if (text.empty()) return;
+  const std::size_t begin = line_begin(text, in);
+  text.erase(begin, line_end(text, begin) - begin);
+}
+
+void repeat_line(std::string &text, Bytes &in) {
+  if (text.empty()) return;
+  const std::size_t begin = line_begin(text, in), target = line_begin(text, in);
+  text.insert(target, text.substr(begin, line_end(text, begin) - begin));
+}
+
+void cut_off(std::string &text, Bytes &in) { text.resize(in.below(text.size() + 1)); }
+
+void change_letter(std::string &text, Bytes &in) {
+  if (!text.empty()) text[in.below(text.size())] = char(in.byte());
+}
+
+void replace_word(std::string &text, Bytes &in) {
+  static const char *const words[] = {"double", "float", "int", "ASCII", "BINARY", "Float32", "Float64", "Int32",
+                                      "Int64", "UInt8", "String", "VECTORS", "FIELD", "METADATA", "CELL_DATA",
+                                      "POINT_DATA", "bit", "vtkIdType", "ascii", "binary", "appended", "points"};
+  const std::string from = words[in.below(std::size(words))], to = words[in.below(std::size(words))];
+  const std::size_t at = text.find(from);
+  if (at != std::string::npos) text.replace(at, from.size(), to);
+}
+
+using Edit = void (*)(std::string &, Bytes &);
+constexpr Edit edits[] = {replace_number, replace_number, replace_number, replace_number, drop_line,
+                          repeat_line,    cut_off,        change_letter,  replace_word};
+
+/// A file, and what its name ends with.
+struct File {
+  std::string ending, text;
+};
+
+File decode_file(Bytes &in) {
+  const std::size_t kind = in.below(8), which = in.byte();
+  File file{kind % 2 ? ".vtu" : ".vtk", {}};
+  if (kind < 2) {
+    while (!in.empty()) file.text += char(in.byte());
+    return file;
+  }
+  file.text = kind % 2 ? xml_file(known_grid(which)) : legacy_file(known_grid(which));
+  for (std::size_t count = in.below(8); count > 0; count--) edits[in.below(std::size(edits))](file.text, in);
+  return file;
+}
+
+// ---- The reader ----------------------------------------------------------------------------------------------------
+
+class FileOnDisk {
+ public:
+  explicit FileOnDisk(const File &file)
+      : path_(std::filesystem::temp_directory_path() / ("tetlod-fuzz-" + std::to_string(getpid()) + file.ending)) {
+    std::ofstream(path_, std::ios::binary) << file.text;
+  }
+  ~FileOnDisk() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+  FileOnDisk(const FileOnDisk &) = delete;
+  FileOnDisk &operator=(const FileOnDisk &) = delete;
+  std::string path() const { return path_.string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// What is read goes to the library as the tool hands it over.
+void submit(Session &session, vtkDataArray *points, vtkDataArray *corners, vtkDataArray *values) {
+  const tetlod_array xyz = cli::borrowed(points, 3), tets = cli::borrowed(corners, 4), field = cli::borrowed(values, 1);
+  DEMAND(tetlod_submit_points(session.context(), &xyz) == TETLOD_OK, "points of a file are points");
+  DEMAND(tetlod_submit_tets(session.context(), &tets, 0) == TETLOD_OK, "tets of a file are tets");
+  DEMAND(tetlod_submit_scalars(session.context(), "field", &field) == TETLOD_OK, "values of a file are values");
+  tetlod_mesh_report report{};
+  report.struct_size = sizeof report;
+  const tetlod_status status = tetlod_check(session.context(), &report);
+  DEMAND(status == TETLOD_OK, "a mesh of a file can be checked: %d", status);
+  session.clear();
+}
+
+/// As the tool does it: what goes wrong is a Failure, or memory that is not there.
+void read(const std::string &path) {
+  const vtkSmartPointer<cli::VtkMessages> messages = vtkSmartPointer<cli::VtkMessages>::New();
+  messages->install();
+  std::vector<std::string> notes;
+  const auto grid = cli::read_grid(path, *messages, notes);
+  vtkDataArray *const field = cli::steering_field(*grid, {});
+  const auto values = cli::as_reals(field);
+  const auto points = cli::as_reals(grid->GetPoints()->GetData());
+  const auto corners = cli::tets_of(*grid, notes);
+  messages->check(path, notes);
+  Session session({});
+  submit(session, points, corners, values);
+}
+
+}  // namespace
+
+}  // namespace fuzz
+
+extern "C" int LLVMFuzzerInitialize(int *, char ***) {
+  fuzz::settle();
+  return 0;
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
+  fuzz::Bytes in(data, size);
+  const fuzz::File file = fuzz::decode_file(in);
+  fuzz::trace("%s\n", file.text.c_str());
+  const fuzz::FileOnDisk disk(file);
+  try {
+    fuzz::read(disk.path());
+  } catch (const cli::Failure &failure) {
+    fuzz::trace("%s\n", failure.what());
+    DEMAND(*failure.what(), "a failure has a message");
+  } catch (const std::bad_alloc &) {
+  }
+  return 0;
+}

@@ -1,0 +1,164 @@
+#include "oracle.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "demand.hpp"
+#include "find_crossing.hpp"
+#include "geometry.hpp"
+#include "job.hpp"
+#include "mesh.hpp"
+#include "surface_topology.hpp"
+
+namespace fuzz {
+
+namespace {
+
+int exponent_of(const std::vector<Point> &points) {
+  double most = 0;
+  for (const Point &p : points)
+    for (const double x : p) most = std::max(most, std::abs(x));
+  return most > 0 ? std::ilogb(most) : 0;
+}
+
+std::vector<tetlod::Vec3> near_one(const std::vector<Point> &points) {
+  const int exponent = -exponent_of(points);
+  std::vector<tetlod::Vec3> scaled;
+  for (const Point &p : points)
+    scaled.push_back({std::ldexp(p[0], exponent), std::ldexp(p[1], exponent), std::ldexp(p[2], exponent)});
+  return scaled;
+}
+
+/// The library's own struct, to ask the library's own questions. Its points are numbered by first use.
+void make_surface(const std::vector<Point> &points, const std::vector<Face> &faces, tetlod::Surface &surface) {
+  std::vector<Point> own = points;  // those that the surface has not are of no account
+  std::vector<bool> used(points.size(), false);
+  for (const Face &face : faces)
+    for (const std::int64_t v : face) used[std::size_t(v)] = true;
+  for (std::size_t v = 0; v < own.size(); v++)
+    if (!used[v]) own[v] = {};
+  const auto scaled = near_one(own);
+  std::map<std::int64_t, std::int32_t> number;
+  for (const Face &face : faces) {
+    tetlod::Triangle triangle{};
+    for (std::size_t k = 0; k < 3; k++) {
+      const auto [place, fresh] = number.emplace(face[k], std::int32_t(number.size()));
+      triangle[k] = place->second;
+      if (!fresh) continue;
+      surface.points.push_back(scaled[std::size_t(face[k])]);
+      surface.scalars.push_back(0);
+      surface.origin.push_back(std::int32_t(face[k]));
+    }
+    surface.triangles.push_back(triangle);
+  }
+}
+
+/// Of the surface that is cut apart where it touches itself.
+struct CutTopology {
+  std::int64_t euler, components, nonmanifold_edges, nonmanifold_points;
+};
+
+CutTopology cut_topology(const std::vector<Point> &points, const std::vector<Face> &faces) {
+  tetlod::Memory memory;
+  const tetlod::Parallel alone(1);
+  tetlod::Job job(memory, alone);
+  tetlod::Surface surface(memory);
+  make_surface(points, faces, surface);
+  tetlod::SurfaceTopology topology(memory);
+  tetlod::find_topology(surface.points, surface.triangles, job, topology);
+  const auto triangles = std::int64_t(faces.size());
+  return {std::int64_t(topology.vertex_of.size()) - triangles / 2, topology.components, topology.nonmanifold_edges,
+          topology.nonmanifold_points};
+}
+
+constexpr std::size_t face_corners[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+
+/// Turned so that the lowest corner comes first: the same for the same side of the same face.
+Face one_side(Face face) {
+  std::rotate(face.begin(), std::min_element(face.begin(), face.end()), face.end());
+  return face;
+}
+Face other_side(const Face &face) { return {face[0], face[2], face[1]}; }
+
+}  // namespace
+
+void check_corners(const std::vector<Corners> &tets, std::size_t points) {
+  std::set<std::int64_t> used;
+  for (const Corners &tet : tets) used.insert(tet.begin(), tet.end());
+  DEMAND(used.size() == points, "every point of a result is used: %zu of %zu are", used.size(), points);
+  DEMAND(used.empty() || (*used.begin() == 0 && *used.rbegin() == std::int64_t(points) - 1), "corners are points");
+}
+
+void check_positive(const std::vector<Point> &points, const std::vector<Corners> &tets) {
+  const auto p = near_one(points);
+  for (std::size_t t = 0; t < tets.size(); t++) {
+    const auto at = [&](std::size_t k) { return p[std::size_t(tets[t][k])]; };
+    const double volume = tetlod::det(at(0), at(1), at(2), at(3));
+    DEMAND(volume > 0, "every tet is positive: tet %zu of %zu has %g", t, tets.size(), volume);
+  }
+}
+
+void check_conforming(const std::vector<Corners> &tets, const std::vector<Face> &boundary) {
+  std::set<Face> sides;
+  for (const Corners &tet : tets)
+    for (const auto &corners : face_corners) {
+      const Face face = one_side({tet[corners[0]], tet[corners[1]], tet[corners[2]]});
+      DEMAND(sides.insert(face).second, "a side of a face belongs to one tet");
+    }
+  std::set<Face> open;
+  for (const Face &face : sides)
+    if (!sides.count(other_side(face))) open.insert(face);
+  std::set<Face> given;
+  for (const Face &face : boundary)
+    DEMAND(given.insert(one_side(face)).second, "a boundary triangle is there once");
+  DEMAND(given == open, "the boundary (%zu triangles) is the faces used once (%zu)", given.size(), open.size());
+}
+
+void check_surface(const std::vector<Point> &points, const std::vector<Face> &boundary) {
+  DEMAND(topology_of(boundary).closed, "the boundary is closed");
+  tetlod::Memory memory;
+  const tetlod::Parallel alone(1);
+  tetlod::Job job(memory, alone);
+  tetlod::Surface surface(memory);
+  make_surface(points, boundary, surface);
+  const auto [a, b] = tetlod::find_crossing(surface, job);
+  DEMAND(a < 0, "the boundary does not cross itself: triangles %d and %d do", a, b);
+}
+
+void check_same_topology(const std::vector<Point> &before, const std::vector<Face> &original,
+                         const std::vector<Point> &after, const std::vector<Face> &boundary) {
+  const Topology was = topology_of(original), is = topology_of(boundary);
+  DEMAND(was.components == is.components, "the surface's components stay: %ld, now %ld", long(was.components),
+         long(is.components));
+  DEMAND(was.euler() == is.euler(), "the Euler characteristic stays: %ld, now %ld", long(was.euler()),
+         long(is.euler()));
+  const CutTopology cut = cut_topology(before, original), now = cut_topology(after, boundary);
+  DEMAND(cut.components == now.components, "components of the cut surface stay: %ld, now %ld", long(cut.components),
+         long(now.components));
+  DEMAND(cut.euler == now.euler, "the Euler characteristic of the cut surface stays: %ld, now %ld", long(cut.euler),
+         long(now.euler));
+  DEMAND(cut.nonmanifold_edges == now.nonmanifold_edges, "edges where it touches itself stay: %ld, now %ld",
+         long(cut.nonmanifold_edges), long(now.nonmanifold_edges));
+  DEMAND(cut.nonmanifold_points == now.nonmanifold_points, "points where it touches itself stay: %ld, now %ld",
+         long(cut.nonmanifold_points), long(now.nonmanifold_points));
+}
+
+void check_values(const std::vector<double> &values, double low, double high) {
+  for (std::size_t i = 0; i < values.size(); i++)
+    DEMAND(values[i] >= low && values[i] <= high, "value %zu, %.17g, is in [%.17g, %.17g]", i, values[i], low, high);
+}
+
+void check_result(const Mesh &mesh, const Facts &facts, const Fetched &result) {
+  DEMAND(!result.tets.empty() && !result.points.empty(), "a result is not empty");
+  DEMAND(result.values.size() == result.points.size(), "there is a value a point");
+  check_corners(result.tets, result.points.size());
+  check_positive(result.points, result.tets);
+  check_conforming(result.tets, result.boundary);
+  check_surface(result.points, result.boundary);
+  check_values(result.values, facts.low, facts.high);
+  check_same_topology(mesh.points, facts.boundary, result.points, result.boundary);
+}
+
+}  // namespace fuzz

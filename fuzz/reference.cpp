@@ -1,0 +1,221 @@
+#include "reference.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "predicates.hpp"
+
+namespace fuzz {
+
+namespace {
+
+constexpr std::size_t face_corners[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+
+template <class Key>
+Key sorted(Key key) {
+  std::sort(key.begin(), key.end());
+  return key;
+}
+
+Face face_of(const Corners &tet, std::size_t k) {
+  return {tet[face_corners[k][0]], tet[face_corners[k][1]], tet[face_corners[k][2]]};
+}
+
+bool in_range(const Corners &tet, const Mesh &mesh) {
+  return std::all_of(tet.begin(), tet.end(), [&](std::int64_t v) { return v >= 0 && v < mesh.point_count(); });
+}
+
+bool finite(const Point &p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); }
+
+bool repeats(const Corners &tet) {
+  const Corners order = sorted(tet);
+  return std::adjacent_find(order.begin(), order.end()) != order.end();
+}
+
+using FaceUsers = std::map<Face, std::vector<std::size_t>>;
+
+FaceUsers users_of(const std::vector<Corners> &tets, std::vector<bool> gone = {}) {
+  FaceUsers users;
+  gone.resize(tets.size(), false);
+  for (std::size_t t = 0; t < tets.size(); t++)
+    for (std::size_t k = 0; k < 4 && !gone[t]; k++) users[sorted(face_of(tets[t], k))].push_back(t);
+  return users;
+}
+
+class Inspection {
+ public:
+  Inspection(const Mesh &mesh, bool drop_nonfinite) : mesh_(mesh), drop_nonfinite_(drop_nonfinite) {}
+
+  Facts inspect() {
+    look_at_indices();
+    look_at_points();
+    look_at_range();
+    merge();
+    drop_repeated();
+    drop_duplicates();
+    look_at_tets();
+    look_at_faces();
+    if (facts_.nonmanifold_faces == 0) peel();
+    return facts_;
+  }
+
+ private:
+  const Point &at(std::int64_t v) const { return mesh_.points[std::size_t(v)]; }
+  int side_of(const Corners &t) const { return side(at(t[0]), at(t[1]), at(t[2]), at(t[3])); }
+
+  void look_at_indices() {
+    used_.assign(mesh_.points.size(), false);
+    for (const Corners &tet : mesh_.tets) {
+      if (!in_range(tet, mesh_)) {
+        facts_.index++;
+        continue;
+      }
+      tets_.push_back(tet);
+      for (const std::int64_t v : tet) used_[std::size_t(v)] = true;
+    }
+  }
+
+  void look_at_points() {
+    facts_.low = std::numeric_limits<double>::infinity();
+    facts_.high = -facts_.low;
+    for (std::size_t v = 0; v < used_.size(); v++) {
+      const bool value = std::isfinite(mesh_.values[v]);
+      if (!used_[v]) {
+        facts_.unused++;
+      } else if (!finite(mesh_.points[v])) {
+        facts_.nonfinite_points++;
+        used_[v] = false;
+      } else if (!value) {
+        facts_.nonfinite_values++;
+        if (drop_nonfinite_) used_[v] = false;
+      }
+      if (!used_[v] || !value) continue;
+      facts_.low = std::min(facts_.low, mesh_.values[v]);
+      facts_.high = std::max(facts_.high, mesh_.values[v]);
+    }
+  }
+
+  void look_at_range() {
+    double least = std::numeric_limits<double>::infinity(), most = 0;
+    for (std::size_t v = 0; v < used_.size(); v++)
+      for (const double x : mesh_.points[v]) {
+        if (!used_[v] || x == 0) continue;
+        least = std::min(least, std::abs(x));
+        most = std::max(most, std::abs(x));
+      }
+    facts_.wide = most * 1e-90 > least;
+  }
+
+  void merge() {
+    std::map<Point, std::int64_t> first;
+    std::vector<std::int64_t> renamed(used_.size());
+    for (std::size_t v = 0; v < used_.size(); v++) {
+      if (!used_[v]) continue;
+      Point p = mesh_.points[v];
+      for (double &x : p) x += 0.0;  // -0 is 0
+      renamed[v] = first.emplace(p, std::int64_t(v)).first->second;
+      facts_.coincident += renamed[v] != std::int64_t(v);
+    }
+    std::vector<Corners> kept;
+    for (Corners tet : tets_) {
+      if (!std::all_of(tet.begin(), tet.end(), [&](std::int64_t v) { return used_[std::size_t(v)]; })) continue;
+      for (std::int64_t &v : tet) v = renamed[std::size_t(v)];
+      kept.push_back(tet);
+    }
+    tets_ = kept;
+  }
+
+  void drop_repeated() {
+    const auto end = std::remove_if(tets_.begin(), tets_.end(), repeats);
+    facts_.repeated = tets_.end() - end;
+    tets_.erase(end, tets_.end());
+  }
+
+  void drop_duplicates() {
+    std::set<Corners> seen;
+    const auto end =
+        std::remove_if(tets_.begin(), tets_.end(), [&](const Corners &t) { return !seen.insert(sorted(t)).second; });
+    facts_.duplicate = tets_.end() - end;
+    tets_.erase(end, tets_.end());
+  }
+
+  void look_at_tets() {
+    for (const Corners &tet : tets_) {
+      facts_.flat += side_of(tet) == 0;
+      facts_.inverted += side_of(tet) < 0;
+    }
+  }
+
+  void look_at_faces() {
+    for (const auto &[face, users] : users_of(tets_)) facts_.nonmanifold_faces += users.size() > 2;
+  }
+
+  /// Flat tets on the boundary cannot say which way is out: they go, until there are none.
+  void peel() {
+    std::vector<bool> gone(tets_.size(), false);
+    for (bool again = true; again;) {
+      again = false;
+      for (const auto &[face, users] : users_of(tets_, gone))
+        if (users.size() == 1 && !gone[users[0]] && side_of(tets_[users[0]]) == 0) again = gone[users[0]] = true;
+    }
+    for (std::size_t t = 0; t < tets_.size(); t++)
+      if (!gone[t]) facts_.tets.push_back(tets_[t]);
+    const FaceUsers users = users_of(facts_.tets);
+    for (const Corners &tet : facts_.tets)
+      for (std::size_t k = 0; k < 4; k++) {
+        Face face = face_of(tet, k);
+        if (users.at(sorted(face)).size() != 1) continue;
+        if (side_of(tet) < 0) std::swap(face[1], face[2]);
+        facts_.boundary.push_back(face);
+      }
+  }
+
+  const Mesh &mesh_;
+  const bool drop_nonfinite_;
+  Facts facts_;
+  std::vector<bool> used_;
+  std::vector<Corners> tets_;
+};
+
+}  // namespace
+
+Facts facts_of(const Mesh &mesh, bool drop_nonfinite) { return Inspection(mesh, drop_nonfinite).inspect(); }
+
+Topology topology_of(const std::vector<Face> &faces) {
+  Topology topology;
+  std::map<std::int64_t, std::int64_t> parent;
+  const auto root = [&](std::int64_t v) {
+    while (parent.emplace(v, v).first->second != v) v = parent[v];
+    return v;
+  };
+  std::map<std::array<std::int64_t, 2>, int> balance;
+  for (const Face &face : faces)
+    for (std::size_t k = 0; k < 3; k++) {
+      const std::int64_t from = face[k], to = face[(k + 1) % 3];
+      parent[root(from)] = root(to);
+      balance[{std::min(from, to), std::max(from, to)}] += from < to ? 1 : -1;
+    }
+  topology.points = std::int64_t(parent.size());
+  topology.edges = std::int64_t(balance.size());
+  topology.triangles = std::int64_t(faces.size());
+  for (const auto &[edge, sum] : balance) topology.closed = topology.closed && sum == 0;
+  for (const auto &[v, up] : parent) topology.components += v == up;
+  return topology;
+}
+
+int side(const Point &a, const Point &b, const Point &c, const Point &d) {
+  double most = 0;
+  for (const Point &p : {a, b, c, d})
+    for (const double x : p) most = std::max(most, std::abs(x));
+  const int exponent = most > 0 ? -std::ilogb(most) : 0;
+  const auto near_one = [&](const Point &p) {
+    return tetlod::Vec3{std::ldexp(p[0], exponent), std::ldexp(p[1], exponent), std::ldexp(p[2], exponent)};
+  };
+  return tetlod::orientation(near_one(a), near_one(b), near_one(c), near_one(d));
+}
+
+}  // namespace fuzz

@@ -1,0 +1,43 @@
+// What a mesh is, found out again by brute force: its defects, its boundary, the topology of that. Slow, and shares
+// nothing with the library but the exact sign of a determinant.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "meshes.hpp"
+
+namespace fuzz {
+
+using Face = std::array<std::int64_t, 3>;
+
+/// Counts of defects, named as in tetlod_mesh_report.
+struct Facts {
+  std::int64_t index = 0, repeated = 0, nonfinite_points = 0, nonfinite_values = 0, coincident = 0, flat = 0;
+  std::int64_t inverted = 0, duplicate = 0, nonmanifold_faces = 0, unused = 0;
+
+  // After the repairs that are the default; empty where nothing can be repaired.
+  std::vector<Corners> tets;    ///< merged, without those that are dropped, given twice, or peeled off as flat
+  std::vector<Face> boundary;   ///< outward, in the numbers of the mesh
+  double low = 0, high = 0;     ///< of the values of the points that tets use
+  /// The sizes of coordinates differ by more than 1e90: products of three leave the range of doubles, and what is flat
+  /// cannot be told.
+  bool wide = false;
+};
+
+/// drop_nonfinite: points without a finite value go with their tets. Points merge only where they are equal.
+Facts facts_of(const Mesh &mesh, bool drop_nonfinite);
+
+/// Of the surface as it is, not cut where it touches itself.
+struct Topology {
+  std::int64_t points = 0, edges = 0, triangles = 0;
+  std::int64_t components = 0;  ///< connected through vertices
+  bool closed = true;           ///< along each edge as many triangles run one way as the other
+  std::int64_t euler() const { return points - edges + triangles; }
+};
+Topology topology_of(const std::vector<Face> &faces);
+
+/// -1, 0, 1; exact, at any scale.
+int side(const Point &a, const Point &b, const Point &c, const Point &d);
+
+}  // namespace fuzz

@@ -1,0 +1,115 @@
+// A host with one context: what it has submitted, set and been given, so that every call can be compared with what the
+// header promises.
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <initializer_list>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "decoder.hpp"
+#include "host.hpp"
+#include "layouts.hpp"
+#include "oracle.hpp"
+#include "tetlod.h"
+
+namespace fuzz {
+
+/// How a context is made.
+struct Conditions {
+  bool hooks = true;
+  std::uint64_t memory_limit = 0;
+  bool no_remesher = false;  ///< the path of one that is not there
+};
+
+/// What the host does while a call works. Counts from 0; negative: never.
+struct Disturbance {
+  long cancel_at_progress = -1;   ///< the callback says so
+  long cancel_at_call = -1;       ///< tetlod_cancel from a callback
+  long throw_at_progress = -1;
+  long cancel_at_allocation = -1;
+  long fail_at_allocation = -1;
+  long failures = 1;
+  bool any() const {
+    return cancel_at_progress >= 0 || cancel_at_call >= 0 || throw_at_progress >= 0 || cancel_at_allocation >= 0 ||
+           fail_at_allocation >= 0;
+  }
+};
+Disturbance decode_disturbance(Bytes &in);
+
+/// A status of a call that is documented for it, beside those that any call may return.
+void check_documented(const char *call, tetlod_status status, std::initializer_list<tetlod_status> documented);
+
+class Session {
+ public:
+  explicit Session(const Conditions &conditions);
+  /// Nothing is left behind.
+  ~Session();
+  Session(const Session &) = delete;
+  Session &operator=(const Session &) = delete;
+
+  tetlod_context *context() const { return context_; }
+  bool has_result() const { return bool(last_); }
+  const Fetched &last() const { return *last_; }
+  std::uint64_t last_hash() const { return hash_; }
+
+  // Slots. The blocks live as long as the session: the library borrows.
+  void submit_all(const Mesh &mesh);
+  void submit_points(const Mesh &mesh, Bytes &in);
+  void submit_tets(const Mesh &mesh, Bytes &in);
+  void submit_values(const Mesh &mesh, Bytes &in);
+  /// Packed, in the widest types, with this index base.
+  void submit_plain(const Mesh &mesh, std::int32_t base);
+  std::int32_t base() const { return base_; }
+  void clear();
+  bool complete() const { return points_ && tets_ && values_; }
+
+  /// What the slots say, as far as it makes a mesh.
+  Mesh mesh() const;
+
+  void set(const Setting &setting);
+  double option(std::int32_t number) const;
+
+  tetlod_status run(const Disturbance &disturbance);
+  /// Counts of defects, and a verdict that the run after it bears out.
+  void check(const Disturbance &disturbance);
+  void estimate(const Disturbance &disturbance);
+
+  /// The result is the one that the last successful run gave.
+  void check_kept();
+  std::string message() const;
+
+ private:
+  struct Callbacks;
+
+  tetlod_status disturbed(const Disturbance &disturbance, const std::function<tetlod_status()> &call);
+  void check_trouble(const char *call, tetlod_status status, const Disturbance &disturbance) const;
+  void check_verdict(tetlod_status status, const Mesh &mesh, const Facts &facts) const;
+  void accept(const Mesh &mesh, const Facts &facts);
+  void check_report(const Mesh &mesh, const Facts &facts) const;
+  bool repairs(std::int32_t policy) const;  ///< TETLOD_OPT_ON_...
+  bool policies_repair() const;             ///< all of those whose defects a sound mesh may have
+  bool undisturbed_success_expected(const Mesh &mesh) const;
+
+  Conditions conditions_;
+  Allocator allocator_;
+  int files_before_ = 0;
+  bool children_before_ = false;  ///< libFuzzer has one at times
+  tetlod_context *context_ = nullptr;
+  std::vector<std::unique_ptr<Block>> blocks_;
+  Block *points_ = nullptr, *tets_ = nullptr, *values_ = nullptr;
+  std::int32_t base_ = 0;
+  long sound_points_ = 0, sound_tets_ = 0, sound_values_ = 0;  ///< of which sound mesh they are
+  std::optional<Fetched> last_;
+  std::uint64_t hash_ = 0;
+  std::string said_;    ///< the message of the last call that worked
+  long fired_ = 0;  ///< disturbances that came to pass in the last call
+};
+
+/// What the views show.
+Fetched fetch(const tetlod_context *context);
+bool same(const Fetched &a, const Fetched &b);
+
+}  // namespace fuzz
