@@ -180,7 +180,8 @@ typedef struct tetlod_defect {
 /* What tetlod_check found. */
 typedef struct tetlod_mesh_report {
   uint32_t struct_size; /* set by the caller; at most this many bytes are written */
-  tetlod_status status; /* what tetlod_run would say of the mesh, with the options as they are, before remeshing */
+  tetlod_status status; /* what tetlod_run would say of the mesh, with the options as they are but for sigma 1, before
+                           remeshing: decimation may take away a place where the boundary crosses itself */
   int64_t points, tets;
   int64_t boundary_triangles;      /* faces used once */
   int64_t components;              /* of the boundary surface; 0 where it cannot be made out */

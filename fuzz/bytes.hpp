@@ -45,9 +45,9 @@ class Bytes {
   double real() {
     constexpr double most = std::numeric_limits<double>::max(), least = std::numeric_limits<double>::min();
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    static const double awkward[] = {0,     -0.0,       1,    -1,    0.5,  1e-9,          least,    -least,
-                                     5e-324, most,      -most, 1e150, 1e-150, 4503599627370497.5, infinity,
-                                     -infinity, std::nan("")};
+    static const double awkward[] = {0,        -0.0,      1,           -1,    0.5,   1e-9,   least,
+                                     -least,   5e-324,    most,        -most, 1e150, 1e-150, 4503599627370497.5,
+                                     infinity, -infinity, std::nan("")};
     switch (below(8)) {
       case 0: return awkward[below(std::size(awkward))];
       case 1: return raw<double>();

@@ -13,8 +13,7 @@ namespace {
 constexpr std::size_t most_tets = 220;
 
 Mesh decode_grid(Bytes &in) {
-  const std::uint32_t cells =
-      in.one_in(3) ? in.raw<std::uint32_t>() : known_cells(in.below(known_cells_count()));
+  const std::uint32_t cells = in.one_in(3) ? in.raw<std::uint32_t>() : known_cells(in.below(known_cells_count()));
   Mesh mesh = grid_mesh(cells);
   if (in.one_in(2)) jitter(mesh, in);
   if (in.one_in(2)) turn(mesh, in);
@@ -153,9 +152,9 @@ void shift_all(Mesh &mesh, Bytes &in) {
 }
 
 using Edit = void (*)(Mesh &, Bytes &);
-constexpr Edit edits[] = {move_point,    spoil_point,      spoil_value, swap_corners, drop_tets, duplicate_tet,
-                          retarget_corner, split_point, add_unused_point, scale_all,  flatten,   shift_all,
-                          move_point,    drop_tets,        drop_tets,   swap_corners};
+constexpr Edit edits[] = {move_point,      spoil_point, spoil_value,      swap_corners, drop_tets, duplicate_tet,
+                          retarget_corner, split_point, add_unused_point, scale_all,    flatten,   shift_all,
+                          move_point,      drop_tets,   drop_tets,        swap_corners};
 
 void edit(Mesh &mesh, Bytes &in) {
   for (std::size_t count = in.below(6); count > 0; count--) {
@@ -192,9 +191,7 @@ Mesh decode_mesh(Bytes &in) {
   return mesh;
 }
 
-std::int32_t decode_option(Bytes &in) {
-  return in.one_in(16) ? in.raw<std::int32_t>() : std::int32_t(in.below(24));
-}
+std::int32_t decode_option(Bytes &in) { return in.one_in(16) ? in.raw<std::int32_t>() : std::int32_t(in.below(24)); }
 
 Setting decode_value(std::int32_t option, const Bounds &bounds, Bytes &in) {
   Setting setting;

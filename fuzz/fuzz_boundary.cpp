@@ -54,7 +54,8 @@ std::vector<Face> sorted(std::vector<Face> faces) {
 }
 
 void check_boundary(const tetlod::Boundary &boundary, const tetlod::MeshView &mesh, const Facts &facts) {
-  DEMAND(sorted(faces_of(boundary.triangles)) == sorted(facts.boundary), "the boundary is the faces used once, outward");
+  DEMAND(sorted(faces_of(boundary.triangles)) == sorted(facts.boundary),
+         "the boundary is the faces used once, outward");
   DEMAND(boundary.tet_of.size() == boundary.triangles.size(), "a boundary triangle has a tet");
   std::set<std::int32_t> used, outer;
   for (const Corners &tet : facts.tets) used.insert(tet.begin(), tet.end());
@@ -100,8 +101,8 @@ void check_locked(const tetlod::Surface &before, const std::vector<std::uint8_t>
   }
 }
 
-void check_decimated(const tetlod::Surface &before, const tetlod::Surface &after,
-                     const tetlod::DecimateReport &report, bool crossed, tetlod::Job &job) {
+void check_decimated(const tetlod::Surface &before, const tetlod::Surface &after, const tetlod::DecimateReport &report,
+                     bool crossed, tetlod::Job &job) {
   DEMAND(after.points.size() == after.scalars.size() && after.points.size() == after.origin.size(),
          "a point has a value and an origin");
   DEMAND(report.edges_out <= report.edges_in, "decimation makes no edges");

@@ -80,10 +80,10 @@ void call_with_nothing(Session &session, Bytes &in) {
       tetlod_fetch_counts(nullptr, &out.integer, nullptr, nullptr),
   };
   for (const tetlod_status status : statuses) DEMAND(status == TETLOD_ERR_ARGUMENT, "null pointers: %d", status);
-  const tetlod_status later[] = {
-      tetlod_fetch_points(c, array),     tetlod_fetch_tets(c, 0, array), tetlod_fetch_boundary(c, 0, array),
-      tetlod_fetch_scalars(c, array),    tetlod_view_points(c, array),   tetlod_view_tets(c, array),
-      tetlod_view_scalars(c, array),     tetlod_fetch_report(c, bare ? &out.run : nullptr)};
+  const tetlod_status later[] = {tetlod_fetch_points(c, array),      tetlod_fetch_tets(c, 0, array),
+                                 tetlod_fetch_boundary(c, 0, array), tetlod_fetch_scalars(c, array),
+                                 tetlod_view_points(c, array),       tetlod_view_tets(c, array),
+                                 tetlod_view_scalars(c, array),      tetlod_fetch_report(c, bare ? &out.run : nullptr)};
   for (const tetlod_status status : later)
     DEMAND(status == TETLOD_ERR_ARGUMENT || (!session.has_result() && status == TETLOD_ERR_STATE),
            "null pointers of a result: %d", status);
@@ -111,7 +111,7 @@ void make_wrong_context(Session &, Bytes &in) {
 
 // ---- Options -------------------------------------------------------------------------------------------------------
 
-void set_option(Session &session, Bytes &in) { 
+void set_option(Session &session, Bytes &in) {
   const std::int32_t option = decode_option(in);
   tetlod_bounds bounds{};
   bounds.struct_size = sizeof bounds;
@@ -136,7 +136,8 @@ void set_by_name(Session &session, Bytes &in) {
   const double before = session.option(named.option);
   const tetlod_status status = named.set(session.context(), value);
   check_documented("tetlod_set_...", status, {TETLOD_ERR_OPTION});
-  DEMAND(session.option(named.option) == (status == TETLOD_OK ? value : before), "an option has the value that was set");
+  DEMAND(session.option(named.option) == (status == TETLOD_OK ? value : before),
+         "an option has the value that was set");
 }
 
 void set_preset(Session &session, Bytes &in) {
@@ -242,7 +243,9 @@ void fetch_into(Session &session, Bytes &in, std::int32_t type, std::int64_t tup
   const tetlod_array before = array;
   const tetlod_status status = call(session.context(), &array);
   DEMAND(std::memcmp(&array, &before, sizeof array) == 0, "the description is not changed");
-  DEMAND(status == (!session.has_result() ? TETLOD_ERR_STATE : room < tuples ? TETLOD_ERR_BUFFER_SIZE : TETLOD_OK),
+  DEMAND(status == (!session.has_result() ? TETLOD_ERR_STATE
+                    : room < tuples       ? TETLOD_ERR_BUFFER_SIZE
+                                          : TETLOD_OK),
          "room for %ld, %ld wanted: %d", long(room), long(tuples), status);
   DEMAND(block.rest_untouched(status == TETLOD_OK ? tuples : 0), "only the tuples of the result are written");
 }
@@ -273,11 +276,33 @@ void listen(Session &session, Bytes &in) {
 }
 
 using Step = void (*)(Session &, Bytes &);
-constexpr Step steps[] = {run,          run,       run,           submit_mesh,   submit_in_layouts, submit_one_slot,
-                          set_option,   set_option, set_option,   set_by_name,   set_preset,        check,
-                          check,        estimate,  measure,       count_values,  fetch_result,      fetch_result,
-                          forget_input, listen,    look_at_result, cancel_nothing, run_another_way, run_another_way,
-                          ask_texts,    call_with_nothing, make_wrong_context};
+constexpr Step steps[] = {run,
+                          run,
+                          run,
+                          submit_mesh,
+                          submit_in_layouts,
+                          submit_one_slot,
+                          set_option,
+                          set_option,
+                          set_option,
+                          set_by_name,
+                          set_preset,
+                          check,
+                          check,
+                          estimate,
+                          measure,
+                          count_values,
+                          fetch_result,
+                          fetch_result,
+                          forget_input,
+                          listen,
+                          look_at_result,
+                          cancel_nothing,
+                          run_another_way,
+                          run_another_way,
+                          ask_texts,
+                          call_with_nothing,
+                          make_wrong_context};
 
 Conditions decode_conditions(Bytes &in) {
   Conditions conditions;

@@ -208,24 +208,24 @@ bool remesh(Stage &stage, const Problem &problem) {
   tetlod::Array<tetlod::Vec3> samples(&stage.memory());
   tetlod::RemeshResult result(stage.memory());
   const tetlod::Vec3 untouched(7);
-  const Status status = stage.call(
-      "remesh",
-      {Status::remesh, Status::mesh_empty, Status::mesh_index, Status::mesh_nonfinite, Status::mesh_degenerate,
-       Status::mesh_nonmanifold, Status::mesh_intersecting, Status::time_limit},
-      [&] {
-        fill(problem, surface);
-        for (const Point &p : problem.samples) samples.push_back({p[0], p[1], p[2]});
-        result.points.push_back(untouched);
-        tetlod::remesh(surface, samples, worker(), stage.job(), result);
-      });
+  const Status status =
+      stage.call("remesh",
+                 {Status::remesh, Status::mesh_empty, Status::mesh_index, Status::mesh_nonfinite,
+                  Status::mesh_degenerate, Status::mesh_nonmanifold, Status::mesh_intersecting, Status::time_limit},
+                 [&] {
+                   fill(problem, surface);
+                   for (const Point &p : problem.samples) samples.push_back({p[0], p[1], p[2]});
+                   result.points.push_back(untouched);
+                   tetlod::remesh(surface, samples, worker(), stage.job(), result);
+                 });
   stage.calm();
   if (status == Status::ok)
     check_success(problem, result);
   else
     DEMAND(result.points.size() <= 1 && result.tets.empty(), "a failure leaves the result as it was");
   if (problem.sound)
-    DEMAND(status == Status::ok || status == Status::memory || status == Status::cancelled, "a sound surface is filled: %d",
-           int(status));
+    DEMAND(status == Status::ok || status == Status::memory || status == Status::cancelled,
+           "a sound surface is filled: %d", int(status));
   return status == Status::remesh;
 }
 

@@ -267,9 +267,11 @@ void fill_struct_of_any_size(const char *what, Bytes &in, tetlod_status (*call)(
   std::memset(memory, 0xa7, sizeof memory);
   std::memcpy(memory, &size, sizeof size);
   const tetlod_status status = call(finished().context(), reinterpret_cast<Struct *>(memory));
-  DEMAND(status == (size < sizeof(Struct) ? TETLOD_ERR_STRUCT_SIZE : TETLOD_OK), "%s of %u bytes: %d", what, size, status);
+  DEMAND(status == (size < sizeof(Struct) ? TETLOD_ERR_STRUCT_SIZE : TETLOD_OK), "%s of %u bytes: %d", what, size,
+         status);
   const std::size_t written = status == TETLOD_OK ? sizeof(Struct) : sizeof size;
-  for (std::size_t i = written; i < sizeof memory; i++) DEMAND(memory[i] == 0xa7, "%s: byte %zu is not theirs", what, i);
+  for (std::size_t i = written; i < sizeof memory; i++)
+    DEMAND(memory[i] == 0xa7, "%s: byte %zu is not theirs", what, i);
   DEMAND(std::memcmp(memory, &size, sizeof size) == 0, "%s: struct_size stays", what);
 }
 

@@ -111,8 +111,7 @@ void check_conforming(const std::vector<Corners> &tets, const std::vector<Face> 
   for (const Face &face : sides)
     if (!sides.count(other_side(face))) open.insert(face);
   std::set<Face> given;
-  for (const Face &face : boundary)
-    DEMAND(given.insert(one_side(face)).second, "a boundary triangle is there once");
+  for (const Face &face : boundary) DEMAND(given.insert(one_side(face)).second, "a boundary triangle is there once");
   DEMAND(given == open, "the boundary (%zu triangles) is the faces used once (%zu)", given.size(), open.size());
 }
 

@@ -47,7 +47,7 @@ void check_documented(const char *call, tetlod_status status, std::initializer_l
 
 // ---- Life ----------------------------------------------------------------------------------------------------------
 
-Session::Session(const Conditions &conditions) 
+Session::Session(const Conditions &conditions)
     : conditions_(conditions), files_before_(open_files()), children_before_(has_children()) {
   tetlod_config config{};
   config.struct_size = sizeof config;
@@ -119,8 +119,8 @@ void Session::set(const Setting &setting) {
   const bool inside = known && wanted >= bounds.least && wanted <= bounds.most;
   DEMAND(status == (inside ? TETLOD_OK : TETLOD_ERR_OPTION), "option %d, %g: %d", setting.option, wanted, status);
   DEMAND(option(setting.option) == (inside ? wanted : before), "option %d has the value that was set", setting.option);
-  const tetlod_status other = bounds.is_integer ? tetlod_set_real(context_, setting.option, 0)
-                                                : tetlod_set_int(context_, setting.option, 0);
+  const tetlod_status other =
+      bounds.is_integer ? tetlod_set_real(context_, setting.option, 0) : tetlod_set_int(context_, setting.option, 0);
   DEMAND(other == TETLOD_ERR_OPTION, "option %d is of one kind: %d", setting.option, other);
 }
 
@@ -196,7 +196,8 @@ void Session::check_trouble(const char *call, tetlod_status status, const Distur
   if (status == TETLOD_ERR_CANCELLED) DEMAND(fired_ > 0, "%s: cancelled by nobody: %s", call, said.c_str());
   if (status == TETLOD_ERR_MEMORY)
     DEMAND(allocator_.failed() && disturbance.fail_at_allocation >= 0, "%s: out of memory: %s", call, said.c_str());
-  if (status == TETLOD_ERR_MEMORY_LIMIT) DEMAND(conditions_.memory_limit, "%s: there is a limit: %s", call, said.c_str());
+  if (status == TETLOD_ERR_MEMORY_LIMIT)
+    DEMAND(conditions_.memory_limit, "%s: there is a limit: %s", call, said.c_str());
   if (status == TETLOD_ERR_TIME_LIMIT)
     DEMAND(option(TETLOD_OPT_TIME_LIMIT) > 0 && option(TETLOD_OPT_TIME_LIMIT) < patience, "%s: time is up: %s", call,
            said.c_str());
@@ -215,7 +216,8 @@ void Session::check_verdict(tetlod_status status, const Mesh &mesh, const Facts 
   const bool empty = mesh.points.empty() || mesh.tets.empty();
   if (status == TETLOD_OK) {
     DEMAND(!empty && !facts.index && !nonfinite, "a mesh with holes in it is no success");
-    DEMAND(!facts.nonmanifold_faces || facts.wide || option(TETLOD_OPT_MERGE_TOLERANCE) > 0, "nor is one that is not a manifold");
+    DEMAND(!facts.nonmanifold_faces || facts.wide || option(TETLOD_OPT_MERGE_TOLERANCE) > 0,
+           "nor is one that is not a manifold");
     return;
   }
   const bool about_remesher = status == TETLOD_ERR_REMESH;
@@ -241,9 +243,12 @@ tetlod_status Session::run(const Disturbance &disturbance) {
                     TETLOD_ERR_MESH_INTERSECTING, TETLOD_ERR_MESH_TOO_LARGE});
   check_trouble("tetlod_run", status, disturbance);
   const bool counts_fit = mesh.points.size() == mesh.values.size();
-  if (!complete()) DEMAND(status == TETLOD_ERR_STATE, "nothing is run without input: %d", status);
-  else if (!counts_fit) DEMAND(status == TETLOD_ERR_ARGUMENT, "a value a point: %d", status);
-  else DEMAND(status != TETLOD_ERR_ARGUMENT && status != TETLOD_ERR_STATE, "%d: %s", status, said_.c_str());
+  if (!complete())
+    DEMAND(status == TETLOD_ERR_STATE, "nothing is run without input: %d", status);
+  else if (!counts_fit)
+    DEMAND(status == TETLOD_ERR_ARGUMENT, "a value a point: %d", status);
+  else
+    DEMAND(status != TETLOD_ERR_ARGUMENT && status != TETLOD_ERR_STATE, "%d: %s", status, said_.c_str());
   if (!complete() || !counts_fit) return check_kept(), status;
   const Facts facts = facts_of(mesh, repairs(TETLOD_OPT_ON_NONFINITE));
   check_verdict(status, mesh, facts);
@@ -270,8 +275,8 @@ void Session::estimate(const Disturbance &disturbance) {
   const tetlod_status status = disturbed(disturbance, [&] { return tetlod_estimate_memory(context_, &bytes); });
   check_documented("tetlod_estimate_memory", status,
                    {TETLOD_ERR_STATE, TETLOD_ERR_MEMORY_LIMIT, TETLOD_ERR_CANCELLED, TETLOD_ERR_TIME_LIMIT,
-                    TETLOD_ERR_MESH_EMPTY, TETLOD_ERR_MESH_INDEX, TETLOD_ERR_MESH_NONFINITE,
-                    TETLOD_ERR_MESH_DEGENERATE, TETLOD_ERR_MESH_NONMANIFOLD, TETLOD_ERR_MESH_INTERSECTING});
+                    TETLOD_ERR_MESH_EMPTY, TETLOD_ERR_MESH_INDEX, TETLOD_ERR_MESH_NONFINITE, TETLOD_ERR_MESH_DEGENERATE,
+                    TETLOD_ERR_MESH_NONMANIFOLD, TETLOD_ERR_MESH_INTERSECTING});
   check_trouble("tetlod_estimate_memory", status, disturbance);
   DEMAND((status == TETLOD_OK) == (bytes != untouched), "an output is written on success alone");
   check_kept();

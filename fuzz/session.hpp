@@ -26,8 +26,8 @@ struct Conditions {
 
 /// What the host does while a call works. Counts from 0; negative: never.
 struct Disturbance {
-  long cancel_at_progress = -1;   ///< the callback says so
-  long cancel_at_call = -1;       ///< tetlod_cancel from a callback
+  long cancel_at_progress = -1;  ///< the callback says so
+  long cancel_at_call = -1;      ///< tetlod_cancel from a callback
   long throw_at_progress = -1;
   long cancel_at_allocation = -1;
   long fail_at_allocation = -1;
@@ -104,8 +104,8 @@ class Session {
   long sound_points_ = 0, sound_tets_ = 0, sound_values_ = 0;  ///< of which sound mesh they are
   std::optional<Fetched> last_;
   std::uint64_t hash_ = 0;
-  std::string said_;    ///< the message of the last call that worked
-  long fired_ = 0;  ///< disturbances that came to pass in the last call
+  std::string said_;  ///< the message of the last call that worked
+  long fired_ = 0;    ///< disturbances that came to pass in the last call
 };
 
 /// What the views show.

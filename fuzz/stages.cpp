@@ -69,8 +69,8 @@ tetlod::Status Stage::call(const char *what, std::initializer_list<tetlod::Statu
 
 MeshInput::MeshInput(const Mesh &mesh) : points_(mesh.points), values_(mesh.values), tets_(mesh.tets) {
   for (std::size_t k = 0; k < 3; k++) {
-    input_.xyz[k] = strided(tetlod::ElementType::float64, points_.size(), 1,
-                            points_.empty() ? nullptr : points_[0].data() + k);
+    input_.xyz[k] =
+        strided(tetlod::ElementType::float64, points_.size(), 1, points_.empty() ? nullptr : points_[0].data() + k);
     input_.xyz[k].tuple_stride = sizeof(Point);
   }
   input_.tets = strided(tetlod::ElementType::int64, tets_.size(), 4, tets_.data());

@@ -1,5 +1,7 @@
 #include "job.hpp"
 
+#include <algorithm>
+
 #include "status.hpp"
 
 namespace tetlod {
@@ -22,7 +24,7 @@ void Job::poll(double fraction) {
   const Clock::time_point now = Clock::now();
   if (now - last_call_ < progress_interval) return;
   last_call_ = now;
-  if (progress(stage_, fraction)) fail(Status::cancelled, "cancelled by the progress callback");
+  if (progress(stage_, std::clamp(fraction, 0.0, 1.0))) fail(Status::cancelled, "cancelled by the progress callback");
 }
 
 }  // namespace tetlod

@@ -39,7 +39,8 @@ struct Defects {
 /// Looks at everything, stops at nothing but the job's limits. Shapes and counts of the input are sound.
 Defects find_defects(const Input &input, const Options &options, Job &job);
 
-/// What a run would say of the mesh before remeshing; Status::ok when nothing. Throws what is not the mesh's fault.
+/// What a run with an undecimated boundary would say of the mesh before remeshing; Status::ok when nothing. Throws what
+/// is not the mesh's fault.
 Error verdict_on(const Input &input, const Options &options, Job &job);
 
 /// Throws the status of the first class that has defects and whose policy is policy_error.
