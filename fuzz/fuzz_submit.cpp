@@ -15,7 +15,7 @@ namespace fuzz {
 namespace {
 
 enum class Kind { reals, integers };
-using Wide = __int128;  // numbers that cannot overflow
+__extension__ using Wide = __int128;  // numbers that cannot overflow
 
 // ---- Arrays that make no sense -------------------------------------------------------------------------------------
 
