@@ -25,6 +25,7 @@ std::string text(const char *format, ...) {
 }
 
 std::string number(double value) {
+  if (value != value) return "nan";  // its sign says nothing
   char buffer[32];
   const auto end = std::to_chars(buffer, buffer + sizeof buffer, value);
   return std::string(buffer, end.ptr);
