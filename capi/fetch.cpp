@@ -77,6 +77,7 @@ tetlod_run_report report_of(const Outcome &outcome) {
   to.samples_too_near = from.samples_too_near;
   to.samples = from.samples;
   to.steiner_points = from.steiner_points;
+  to.inserted_points = from.inserted_points;
   to.points_out = from.points_out;
   to.tets_out = from.tets_out;
   to.remesh_attempts = from.remesh_attempts;

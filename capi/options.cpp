@@ -41,6 +41,8 @@ constexpr Option option_table[] = {
     {TETLOD_OPT_ON_OVERLAP, "on-overlap", nullptr, &Options::on_overlap, 0, 1, false},
     {TETLOD_OPT_ON_UNUSED, "on-unused", nullptr, &Options::on_unused, 0, 1, false},
     {TETLOD_OPT_ON_NONFINITE, "on-nonfinite", nullptr, &Options::on_nonfinite, 0, 1, false},
+    {TETLOD_OPT_TARGET_RATIO, "target-ratio", &Options::target_ratio, nullptr, 0, 1, true},
+    {TETLOD_OPT_EFFORT, "effort", nullptr, &Options::effort, 1, 2, false},
 };
 
 const Option *find(std::int32_t number) noexcept {
@@ -108,6 +110,16 @@ void set_as_published(Options &options) {
   }
 }
 
+constexpr double usual_ratio = 0.1;
+
+void set_preset(Options &options, std::int32_t preset) {
+  if (preset == TETLOD_PRESET_PAPER) return set_as_published(options);
+  if (preset != TETLOD_PRESET_FAST && preset != TETLOD_PRESET_ACCURATE)
+    fail(Status::option, "there is no preset %d", preset);
+  options.effort = preset == TETLOD_PRESET_FAST ? effort_fast : effort_accurate;
+  if (options.target_ratio <= 0) options.target_ratio = usual_ratio;
+}
+
 }  // namespace
 
 }  // namespace tetlod::capi
@@ -154,10 +166,7 @@ tetlod_status tetlod_set_min_distance(tetlod_context *context, double fraction) 
 }
 
 tetlod_status tetlod_set_preset(tetlod_context *handle, int32_t preset) {
-  return entry(handle, [&](tetlod_context &context) {
-    if (preset != TETLOD_PRESET_PAPER) fail(Status::option, "there is no preset %d", preset);
-    set_as_published(context.options);
-  });
+  return entry(handle, [&](tetlod_context &context) { set_preset(context.options, preset); });
 }
 
 tetlod_status tetlod_option_bounds(int32_t option, tetlod_bounds *out) {

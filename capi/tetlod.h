@@ -158,6 +158,7 @@ typedef struct tetlod_run_report {
   uint64_t worker_peak_bytes;    /* of tetlod-remesh */
   uint64_t hash;                 /* of the result's bytes */
   double scalar_min, scalar_max; /* of the original's values */
+  int64_t inserted_points;       /* inside, after the remeshing (TETLOD_OPT_TARGET_RATIO) */
 } tetlod_run_report;
 
 /* The field error of the last result, as the paper estimates it [4]. Errors are |result - original|, relative to the
@@ -258,7 +259,10 @@ TETLOD_API tetlod_status tetlod_set_lambda(tetlod_context *context, double lambd
 TETLOD_API tetlod_status tetlod_set_min_distance(tetlod_context *context, double fraction);
 
 enum {
-  TETLOD_PRESET_PAPER = 0 /* as published: lambda 0.1, min-distance 0.01, leaves of 200 triangles and 500 tets */
+  TETLOD_PRESET_PAPER = 0,   /* as published, sized by rho and sigma: target-ratio 0, lambda 0.1, min-distance 0.01,
+                                leaves of 200 triangles and 500 tets. The default */
+  TETLOD_PRESET_FAST = 1,    /* effort fast, and target-ratio 0.1 where it is 0 */
+  TETLOD_PRESET_ACCURATE = 2 /* effort accurate, likewise */
 };
 /* Sets every option that the preset governs. TETLOD_ERR_OPTION. */
 TETLOD_API tetlod_status tetlod_set_preset(tetlod_context *context, int32_t preset);
@@ -289,9 +293,17 @@ enum {
   TETLOD_OPT_ON_OVERLAP = 17,   /* "on-overlap": neighbours on one side of their face are kept where they do not reach
                                    the boundary; TETLOD_ERR_MESH_INTERSECTING */
   TETLOD_OPT_ON_UNUSED = 18,    /* "on-unused": ignore the points; TETLOD_ERR_MESH_DEGENERATE */
-  TETLOD_OPT_ON_NONFINITE = 19  /* "on-nonfinite": ignore points without a finite value together with their tets;
+  TETLOD_OPT_ON_NONFINITE = 19, /* "on-nonfinite": ignore points without a finite value together with their tets;
                                    TETLOD_ERR_MESH_NONFINITE, the default */
+  TETLOD_OPT_TARGET_RATIO = 20, /* real, "target-ratio": tets kept, as a fraction of the original's sound ones. Then the
+                                   boundary is decimated with a cost that sees the field, samples are taken where a
+                                   linear field would be wrong, values are fitted to all original values, and rho,
+                                   sigma, lambda and min-distance have no meaning; 0, the default: as published */
+  TETLOD_OPT_EFFORT = 21        /* int, "effort": with a target ratio, TETLOD_EFFORT_FAST: one pass;
+                                   TETLOD_EFFORT_ACCURATE, the default: then vertices inside move, faces and edges
+                                   flip, and vertices are inserted, where the field gains by it */
 };
+enum { TETLOD_EFFORT_FAST = 1, TETLOD_EFFORT_ACCURATE = 2 };
 enum { TETLOD_POLICY_ERROR = 0, TETLOD_POLICY_REPAIR = 1 };
 /* TETLOD_ERR_OPTION: unknown, of the other kind, or out of bounds (NaN is). */
 TETLOD_API tetlod_status tetlod_set_real(tetlod_context *context, int32_t option, double value);
@@ -344,7 +356,7 @@ TETLOD_API tetlod_status tetlod_estimate_memory(tetlod_context *context, uint64_
  * Guarantees of a result: every tet has a positive volume, every face is used by one or two tets, the boundary is
  * closed, does not cross itself and has the components and the Euler characteristic of the original's, every value lies
  * within the original's range. Boundary vertices come first, then samples (each an original vertex with its value),
- * then Steiner points. */
+ * then Steiner points; with a target ratio, boundary vertices, then all others. */
 TETLOD_API tetlod_status tetlod_run(tetlod_context *context);
 
 /* Estimates the field error of the last result [4], at the original vertices and at samples_per_tet (0 to 100) random

@@ -7,6 +7,9 @@
 
 namespace tetlod {
 
+/// Links of more vertices than this are left alone: nothing of use comes from such a collapse.
+constexpr std::size_t longest_ring = 64;
+
 /// The collapse of an edge to `centre`. Ring vertices are in order around it, counter-clockwise seen from outside;
 /// spoke i is the triangle (centre, ring i, ring i + 1).
 struct Star {

@@ -6,6 +6,7 @@
 
 #include "collapse_rules.hpp"
 #include "edge_queue.hpp"
+#include "field_quadric.hpp"
 #include "lindstrom_turk.hpp"
 #include "surface_topology.hpp"
 
@@ -19,8 +20,6 @@ using VertexHandle = OpenMesh::VertexHandle;
 
 /// OpenMesh allocates from the heap; this is what it takes for a triangle: half a vertex, one and a half edges.
 constexpr std::size_t openmesh_bytes_a_triangle = 100;
-/// Links of more vertices than this are left alone: nothing of use comes from such a collapse.
-constexpr std::size_t longest_ring = 64;
 
 template <class T>
 auto &at(T &array, OpenMesh::BaseHandle handle) {
@@ -29,16 +28,17 @@ auto &at(T &array, OpenMesh::BaseHandle handle) {
 
 class Decimator {
  public:
-  Decimator(const Surface &surface, const SurfaceTopology &topology, Span<const std::uint8_t> locked, double lambda,
-            Job &job)
+  Decimator(const Surface &surface, const SurfaceTopology &topology, Span<const std::uint8_t> locked,
+            const DecimateOptions &options, Job &job)
       : surface_(surface),
         job_(job),
-        lambda_(lambda),
+        lambda_(options.lambda),
         charge_(job.memory, openmesh_bytes_a_triangle * surface.triangles.size()),
         queue_(3 * surface.triangles.size() / 2, job.memory) {
     copy_vertices(topology, locked);
     copy_connectivity(topology);
     for (std::size_t v = 0; v < point_.size(); v++) update_sums(VertexHandle(int(v)));
+    if (options.field_weight > 0) quadrics_.find(options.field_weight, triangle_, point_, scalar_);
     build_tree();
   }
 
@@ -87,8 +87,6 @@ class Decimator {
 
   void copy_vertices(const SurfaceTopology &topology, Span<const std::uint8_t> locked) {
     const std::size_t count = topology.vertex_of.size();
-    for (auto *array : {&id_, &origin_}) array->reserve(count);
-    point_.reserve(count);
     for (std::int32_t id : topology.vertex_of) {
       const auto i = std::size_t(id);
       point_.push_back(surface_.points[i]);
@@ -141,7 +139,7 @@ class Decimator {
   void build_tree() {
     Array<Box> boxes(&job_.memory);
     boxes.reserve(triangle_.size());
-    for (const Triangle &t : triangle_) boxes.push_back(box_of(t));
+    for (const Triangle &t : triangle_) boxes.push_back(box_of(point_, t));
     tree_.build(std::move(boxes), 4, [this] { job_.poll(0); });
   }
 
@@ -149,12 +147,6 @@ class Decimator {
 
   const Vec3 &point(std::int32_t v) const { return point_[std::size_t(v)]; }
   const Vec3 &point(VertexHandle v) const { return point_[std::size_t(v.idx())]; }
-
-  Box box_of(const Triangle &t) const {
-    Box box;
-    for (std::int32_t v : t) box.add(point(v));
-    return box;
-  }
 
   void update_sums(VertexHandle v) {
     VolumeSums volume;
@@ -198,7 +190,7 @@ class Decimator {
 
   struct Placement {
     Vec3 point;
-    double cost;
+    double scalar, cost;
   };
 
   Placement place(HalfedgeHandle h) const {
@@ -211,14 +203,26 @@ class Decimator {
     VolumeSums volume = at(volume_, from);
     volume.add(at(volume_, to));
     for (HalfedgeHandle side : {h, o}) volume.add(at(plane_, mesh_.face_handle(side)), -1);
-    const VertexHandle fixed = fixed_end(from, to);
+    const VertexHandle fixed = at(locked_, from) ? from : at(locked_, to) ? to : VertexHandle();
+    if (fixed.is_valid() && changes_volume(volume, point(fixed), length2_e))
+      return {point(fixed), at(scalar_, fixed), std::numeric_limits<double>::infinity()};
+    if (!quadrics_.empty()) return place_in_field(from, to, fixed, volume, link, length2_e);
     const Vec3 x = fixed.is_valid() ? point(fixed) : place_vertex(volume, link, length2_e, lambda_);
-    if (fixed.is_valid() && changes_volume(volume, x, length2_e)) return {x, std::numeric_limits<double>::infinity()};
-    return {x, collapse_cost(link, x, length2_e)};
+    const double scalar = value_along_edge(x, point(from), point(to), at(scalar_, from), at(scalar_, to));
+    return {x, scalar, collapse_cost(link, x, length2_e)};
   }
 
-  VertexHandle fixed_end(VertexHandle from, VertexHandle to) const {
-    return at(locked_, from) ? from : at(locked_, to) ? to : VertexHandle();
+  Placement place_in_field(VertexHandle from, VertexHandle to, VertexHandle fixed, const VolumeSums &volume,
+                           const LinkSums &link, double length2_e) const {
+    const FieldQuadric quadric = quadrics_.of_edge(from.idx(), to.idx());
+    const double mean_value = 0.5 * (at(scalar_, from) + at(scalar_, to));
+    Vec4 x = quadrics_.with_value(0.5 * (point(from) + point(to)), mean_value);
+    if (fixed.is_valid()) {
+      x = quadrics_.with_value(point(fixed), at(scalar_, fixed));
+    } else if (!place_by_quadric(quadric, volume, x)) {
+      return {point(to), mean_value, std::numeric_limits<double>::infinity()};
+    }
+    return {{x[0], x[1], x[2]}, quadrics_.value_of(x), collapse_cost(quadric, x, link, length2_e)};
   }
 
   void update_cost(OpenMesh::EdgeHandle edge) {
@@ -241,10 +245,8 @@ class Decimator {
   /// The link condition, and no pillow of two triangles: the surface stays a manifold of the same topology.
   bool breaks_topology(HalfedgeHandle h) {
     const HalfedgeHandle o = mesh_.opposite_halfedge_handle(h);
-    return valence(apex(h)) <= 3 || valence(apex(o)) <= 3 || !mesh_.is_collapse_ok(h);
+    return at(link_, apex(h)).count <= 3 || at(link_, apex(o)).count <= 3 || !mesh_.is_collapse_ok(h);
   }
-
-  int valence(VertexHandle v) const { return int(at(link_, v).count); }
 
   /// `to`, where the surface touches itself, would get an edge that another sheet has or may get: to a vertex that is
   /// also touched, or to one that has an edge to `to` in another sheet.
@@ -299,22 +301,23 @@ class Decimator {
   void try_collapse(OpenMesh::EdgeHandle edge) {
     HalfedgeHandle h = mesh_.halfedge_handle(edge, 0);
     if (at(locked_, mesh_.from_vertex_handle(h))) h = mesh_.opposite_halfedge_handle(h);
-    const Vec3 x = place(h).point;
-    if (breaks_topology(h) || joins_sheets(h) || !look_around(h, x)) return;
+    const Placement placement = place(h);
+    if (breaks_topology(h) || joins_sheets(h) || !look_around(h, placement.point)) return;
     if (pinches_ring(star_) || turns_too_far(star_) || folds(star_) || makes_sliver(star_)) return;
     if (crosses_surface(star_, {tree_, point_, triangle_, id_})) return;
-    collapse(h, x);
+    collapse(h, placement);
   }
 
-  /// `from` disappears, `to` moves to x unless it is locked.
-  void collapse(HalfedgeHandle h, const Vec3 &x) {
+  /// `from` disappears, `to` moves unless it is locked.
+  void collapse(HalfedgeHandle h, const Placement &placement) {
     const VertexHandle from = mesh_.from_vertex_handle(h), to = mesh_.to_vertex_handle(h);
     const HalfedgeHandle o = mesh_.opposite_halfedge_handle(h);
     if (!at(locked_, to)) {
-      at(scalar_, to) = value_along_edge(x, point(from), point(to), at(scalar_, from), at(scalar_, to));
-      at(point_, to) = x;
+      at(scalar_, to) = placement.scalar;
+      at(point_, to) = placement.point;
       at(origin_, to) = -1;
     }
+    if (!quadrics_.empty()) quadrics_.merge(from.idx(), to.idx());
     for (HalfedgeHandle side : {h, o}) {
       tree_.refit(mesh_.face_handle(side).idx(), Box());
       const HalfedgeHandle next = mesh_.next_halfedge_handle(side);
@@ -339,7 +342,7 @@ class Decimator {
     const Triangle t{mesh_.from_vertex_handle(spoke).idx(), mesh_.to_vertex_handle(spoke).idx(), apex(spoke).idx()};
     at(triangle_, face) = t;
     at(plane_, face) = plane_of(point(t[0]), point(t[1]), point(t[2]));
-    tree_.refit(face.idx(), box_of(t));
+    tree_.refit(face.idx(), box_of(point_, t));
   }
 
   void update_costs_at(VertexHandle v) {
@@ -364,6 +367,7 @@ class Decimator {
   Array<std::uint8_t> locked_{&job_.memory}, touching_{&job_.memory};
   Array<Triangle> triangle_{&job_.memory};
   Array<TrianglePlane> plane_{&job_.memory};
+  FieldQuadrics quadrics_{job_.memory};  // empty: the paper's cost
   Array<VolumeSums> volume_{&job_.memory};
   Array<LinkSums> link_{&job_.memory};
   Array<std::int32_t> stamp_{&job_.memory};
@@ -377,7 +381,7 @@ class Decimator {
 
 DecimateReport decimate_boundary(Surface &surface, const SurfaceTopology &topology, Span<const std::uint8_t> locked,
                                  const DecimateOptions &options, Job &job) {
-  Decimator decimator(surface, topology, locked, options.lambda, job);
+  Decimator decimator(surface, topology, locked, options, job);
   DecimateReport report;
   report.edges_in = decimator.edges();
   const auto target = std::int64_t(std::ceil(options.sigma * double(report.edges_in)));

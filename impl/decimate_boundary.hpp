@@ -9,9 +9,10 @@
 namespace tetlod {
 
 struct DecimateOptions {
-  double sigma = 0.1;      ///< edges kept, fraction of the surface's
-  double lambda = 0.1;     ///< shape optimization weight
-  double clean_edges = 0;  ///< edges shorter than this fraction of the diagonal are collapsed first
+  double sigma = 0.1;       ///< edges kept, fraction of the surface's
+  double lambda = 0.1;      ///< shape optimization weight
+  double clean_edges = 0;   ///< edges shorter than this fraction of the diagonal are collapsed first
+  double field_weight = 0;  ///< length that a unit of the field counts as; 0: the paper's cost, which does not see it
 };
 
 struct DecimateReport {

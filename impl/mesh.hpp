@@ -85,6 +85,14 @@ struct Box {
   double diagonal() const { return glm::length(high - low); }
 };
 
+/// Of a triangle or tet.
+template <std::size_t corners>
+Box box_of(Span<const Vec3> points, const std::array<std::int32_t, corners> &simplex) {
+  Box box;
+  for (std::int32_t v : simplex) box.add(points[std::size_t(v)]);
+  return box;
+}
+
 inline Box box_of(Span<const Vec3> points) {
   Box box;
   for (const Vec3 &p : points) box.add(p);

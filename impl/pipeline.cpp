@@ -9,7 +9,9 @@
 #include "geometry.hpp"
 #include "interpolate.hpp"
 #include "prepare.hpp"
+#include "refine.hpp"
 #include "sample_interior.hpp"
+#include "sample_residual.hpp"
 #include "status.hpp"
 #include "surface_topology.hpp"
 #include "validate.hpp"
@@ -32,6 +34,40 @@ class StageTimer {
   Clock::time_point begin_ = Clock::now();
 };
 
+bool as_published(const Options &options) { return options.target_ratio <= 0; }
+
+/// What a target size is spent on.
+struct Budget {
+  std::int64_t tets = 0;
+  double sigma = 0;
+  std::size_t samples = 0;
+};
+
+/// Tets that a sample and a boundary vertex bring, by experience.
+constexpr double tets_a_sample = 6.5, tets_a_boundary_point = 3;
+/// Share of the tets that is left to the vertices that refine() inserts.
+constexpr double spare = 0.05;
+constexpr int most_rounds = 6;
+/// What the field's range counts as beside the diagonal, when the boundary is decimated: more costs geometry.
+constexpr double field_weight = 0.3;
+
+/// A surface has fewer triangles to lose than its solid has tets, and less to lose them for.
+double boundary_share(double ratio) { return std::pow(ratio, 0.63); }
+
+Budget budget_of(const Options &options, const Report &report) {
+  Budget budget;
+  budget.sigma = options.sigma;
+  if (as_published(options)) return budget;
+  const double whole = double(report.tets_in - report.dropped_tets), triangles = double(report.boundary_triangles_in);
+  budget.tets = std::int64_t(options.target_ratio * whole);
+  const double most = 0.6 * double(budget.tets) * 2 / tets_a_boundary_point;
+  const double kept = std::min(boundary_share(options.target_ratio) * triangles, most);
+  budget.sigma = kept / triangles;
+  const double left = (1 - spare) * double(budget.tets) - kept / 2 * tets_a_boundary_point;
+  budget.samples = std::size_t(std::max(left / tets_a_sample, 0.0));
+  return budget;
+}
+
 class Pipeline {
  public:
   Pipeline(const Input &input, const Options &options, Job &job, Result &result)
@@ -41,19 +77,54 @@ class Pipeline {
   void begin() {
     prepare();
     extract();
+    budget_ = budget_of(options_, report_);
     sample();
   }
 
   void run(Worker &worker) {
     begin();
-    double sigma = options_.sigma;
+    double sigma = budget_.sigma;
     while (!simplify_with(sigma, worker)) sigma = less_decimated(sigma);
+    if (!as_published(options_)) meet_target(sigma, worker);
     reconstruct_field();
+    if (!as_published(options_)) refine();
+    finish();
   }
 
  private:
   /// When TetGen finds no way with a boundary, one with more edges may have it; the last is the original's.
   static double less_decimated(double sigma) { return std::min(std::max(2 * sigma, 0.1), 1.0); }
+
+  /// What TetGen makes of so many samples is known afterwards alone: too many tets are taken back here, too few are
+  /// made good by refine().
+  void meet_target(double sigma, Worker &worker) {
+    for (int round = 0; round < most_rounds; round++) {
+      const double excess = double(remeshed_.tets.size()) - double(budget_.tets);
+      if (excess <= 0) return;
+      if (budget_.samples > 0) {
+        budget_.samples -=
+            std::min(budget_.samples, std::size_t(1 + (excess + spare * double(budget_.tets)) / tets_a_sample));
+        sample();
+      } else {
+        const double before = sigma;
+        sigma *= double(budget_.tets) / double(remeshed_.tets.size());
+        decimate(sigma);
+        if (topology_.edges >= report_.boundary_edges_out && before < 1 && round) return;
+      }
+      cull();
+      remesh(worker);
+    }
+  }
+
+  void refine() {
+    const StageTimer timer(Stage::values, job_, report_);
+    const RefineOptions options{budget_.tets, options_.effort == effort_accurate};
+    const RefineReport refined = tetlod::refine(original_.view, options, job_, mesh_);
+    report_.inserted_points = refined.inserted - refined.inserted_on_boundary;
+    report_.boundary_points_out += refined.inserted_on_boundary;
+    report_.boundary_edges_out += 3 * refined.inserted_on_boundary;
+    report_.boundary_triangles_out += 2 * refined.inserted_on_boundary;
+  }
 
   /// False: the boundary of this sigma cannot be remeshed, and one that is less decimated is left to try.
   bool simplify_with(double sigma, Worker &worker) {
@@ -114,7 +185,10 @@ class Pipeline {
     report_.components = topology.components;
     report_.nonmanifold_edges = topology.nonmanifold_edges;
     report_.nonmanifold_points = topology.nonmanifold_points;
-    const DecimateOptions options{sigma, options_.lambda, options_.clean_edges};
+    const double range = report_.scalar_max - report_.scalar_min;
+    const double weight =
+        as_published(options_) || !(range > 0) ? 0 : field_weight * box_of(surface.points).diagonal() / range;
+    const DecimateOptions options{sigma, options_.lambda, options_.clean_edges, weight};
     report_.cleaned_edges = decimate_boundary(surface, topology, {}, options, job_).cleaned_edges;
     refuse_crossing(surface, input_.index_base, job_);
     surface_ = std::move(surface);
@@ -127,17 +201,33 @@ class Pipeline {
 
   void sample() {
     const StageTimer timer(Stage::sample, job_, report_);
+    if (!as_published(options_)) return sample_where_not_linear();
     const double variation = options_.rho * (original_.scalar_max - original_.scalar_min);
     sample_interior(original_.view, {boundary_.interior.data(), boundary_.interior.size()}, variation, job_, selected_);
+    report_.selected_samples = std::int64_t(selected_.size());
+  }
+
+  void sample_where_not_linear() {
+    Array<std::uint8_t> is_interior(original_.view.points.size(), 0, &job_.memory);
+    for (std::int32_t v : boundary_.interior) is_interior[std::size_t(v)] = 1;
+    Array<std::int32_t> vertices(boundary_.interior, &job_.memory);
+    Array<std::uint8_t> on_boundary(is_interior.size(), 0, &job_.memory);
+    for (const Triangle &t : boundary_.triangles)
+      for (std::int32_t v : t) on_boundary[std::size_t(v)] = 1;
+    for (std::size_t v = 0; v < on_boundary.size(); v++)
+      if (on_boundary[v]) vertices.push_back(std::int32_t(v));
+    selected_.clear();
+    sample_residual(original_.view, vertices, is_interior, budget_.samples, job_, selected_);
     report_.selected_samples = std::int64_t(selected_.size());
   }
 
   void cull() {
     const StageTimer timer(Stage::cull, job_, report_);
     const double diagonal = box_of(surface_.points).diagonal();
+    const double least = as_published(options_) ? options_.min_distance * diagonal : 0;
     samples_ = selected_;
-    const CullReport culled = cull_samples(original_.view.points, surface_, topology_, options_.min_distance * diagonal,
-                                           options_.boundary_leaf, job_, samples_);
+    const CullReport culled =
+        cull_samples(original_.view.points, surface_, topology_, least, options_.boundary_leaf, job_, samples_);
     report_.samples_outside = culled.outside;
     report_.samples_too_near = culled.too_near;
   }
@@ -170,10 +260,13 @@ class Pipeline {
     interpolate(original_.view, boundary_.triangles, steiner, options_.tet_leaf, job_, values);
     mesh_.scalars.insert(mesh_.scalars.end(), values.begin(), values.end());
     mesh_.points = std::move(remeshed_.points);
-    if (original_.exponent)
-      for (Vec3 &p : mesh_.points) p = times_power_of_two(p, original_.exponent);
     mesh_.tets = std::move(remeshed_.tets);
     mesh_.boundary = std::move(surface_.triangles);
+  }
+
+  void finish() {
+    if (original_.exponent)
+      for (Vec3 &p : mesh_.points) p = times_power_of_two(p, original_.exponent);
     report_.points_out = std::int64_t(mesh_.points.size());
     report_.tets_out = std::int64_t(mesh_.tets.size());
   }
@@ -189,6 +282,7 @@ class Pipeline {
   Job &job_;
   TetMesh &mesh_;
   Report &report_;
+  Budget budget_;
   Original original_{job_.memory};
   Boundary boundary_{job_.memory};
   Surface surface_{job_.memory};                // the simplified boundary

@@ -15,7 +15,13 @@ namespace tetlod {
 /// What happens to a defect of the input that can be repaired. The numbers are those of the C ABI.
 constexpr std::int64_t policy_error = 0, policy_repair = 1;
 
+/// How much is done for accuracy when a size is asked for: a boundary that sees the field, samples where a linear field
+/// would be wrong, fitted values; and connectivity that follows the field. The numbers are those of the C ABI.
+constexpr std::int64_t effort_fast = 1, effort_accurate = 2;
+
 struct Options {
+  double target_ratio = 0;  ///< tets kept, of the original's; 0: the paper's method, sized by rho and sigma
+  std::int64_t effort = effort_accurate;  ///< of a run with a target
   double rho = 0.01;
   double sigma = 0.1;
   double lambda = 0.1;
@@ -55,7 +61,7 @@ struct Report {
   std::int64_t cleaned_edges = 0;
   std::int64_t boundary_points_out = 0, boundary_edges_out = 0, boundary_triangles_out = 0;
   std::int64_t selected_samples = 0, samples_outside = 0, samples_too_near = 0, samples = 0;
-  std::int64_t steiner_points = 0, points_out = 0, tets_out = 0;
+  std::int64_t steiner_points = 0, inserted_points = 0, points_out = 0, tets_out = 0;
   std::int64_t remesh_attempts = 0, boundary_retries = 0;
   std::array<double, std::size_t(Stage::count)> seconds{};
   double seconds_total = 0;

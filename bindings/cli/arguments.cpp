@@ -23,6 +23,9 @@ constexpr NumberOption kNumberOptions[] = {
     {"min-distance", "least distance of a sample to the boundary, fraction of the diagonal"},
     {"merge-tolerance", "points this near become one, fraction of the diagonal"},
     {"clean-edges", "boundary edges shorter than this are collapsed first, fraction of the diagonal"},
+    {"target-ratio",
+     "tets kept, fraction of the original's, with less error than the paper's method; 0: by rho and sigma"},
+    {"effort", "with a target ratio: 1 is fast, 2 accurate"},
     {"threads", "0: one a core, which is what the tool does; the library's own default is"},
     {"seed", "of the retries and of the error's samples"},
     {"time-limit", "seconds for the simplification, 0: none"},
@@ -79,8 +82,10 @@ void add_policy(CLI::App &app, const NumberOption &option, Arguments &arguments)
 }
 
 int32_t preset_named(const std::string &name) {
-  if (name == "paper") return TETLOD_PRESET_PAPER;
-  throw CLI::ValidationError("--preset", "there is no preset '" + name + "' (there is: paper)");
+  static const std::map<std::string, int32_t> presets{
+      {"paper", TETLOD_PRESET_PAPER}, {"fast", TETLOD_PRESET_FAST}, {"accurate", TETLOD_PRESET_ACCURATE}};
+  if (const auto found = presets.find(name); found != presets.end()) return found->second;
+  throw CLI::ValidationError("--preset", "there is no preset '" + name + "' (there are: paper, fast, accurate)");
 }
 
 void add_options(CLI::App &app, Arguments &arguments) {
@@ -89,7 +94,8 @@ void add_options(CLI::App &app, Arguments &arguments) {
   app.add_option("--field", arguments.field, "point data that steers [the active scalars, else the first]")
       ->type_name("NAME");
   const auto preset = [&arguments](const std::string &name) { arguments.preset = preset_named(name); };
-  app.add_option_function<std::string>("--preset", preset, "sets the other options: paper")->type_name("NAME");
+  app.add_option_function<std::string>("--preset", preset, "sets the other options: paper, fast, accurate")
+      ->type_name("NAME");
   for (const NumberOption &option : kNumberOptions) add_number(app, option, arguments);
   for (const NumberOption &option : kPolicyOptions) add_policy(app, option, arguments);
   app.add_option("--report", arguments.report, "writes what the run did as JSON")->type_name("FILE");

@@ -274,7 +274,7 @@ static void check_every_option(void) {
     else
       check_real(context, option, &bounds);
   }
-  CHECK(found == TETLOD_OPT_ON_NONFINITE);  /* the last one */
+  CHECK(found == TETLOD_OPT_EFFORT);  /* the last one */
   tetlod_destroy(context);
 }
 

@@ -1,0 +1,202 @@
+#include "adaptive_mesh.hpp"
+
+#include <algorithm>
+
+namespace tetlod {
+
+Triangle sorted_face(const Tet &t, int k) {
+  Triangle f{t[std::size_t(tet_face[k][0])], t[std::size_t(tet_face[k][1])], t[std::size_t(tet_face[k][2])]};
+  if (f[0] > f[1]) std::swap(f[0], f[1]);
+  if (f[1] > f[2]) std::swap(f[1], f[2]);
+  if (f[0] > f[1]) std::swap(f[0], f[1]);
+  return f;
+}
+
+void AdaptiveMesh::connect() {
+  struct Face {
+    Triangle vertices;
+    std::int32_t tet;
+    std::int32_t side;
+  };
+  Array<Face> faces(&memory_);
+  faces.reserve(4 * tets.size());
+  for (std::size_t t = 0; t < tets.size(); t++)
+    for (int k = 0; k < 4; k++) faces.push_back({sorted_face(tets[t], k), std::int32_t(t), k});
+  std::sort(faces.begin(), faces.end(), [](const Face &a, const Face &b) {
+    return a.vertices != b.vertices ? a.vertices < b.vertices : a.tet < b.tet;
+  });
+  neighbours.assign(tets.size(), Tet{-1, -1, -1, -1});
+  error.assign(tets.size(), 0.0);
+  first_probe.assign(tets.size(), -1);
+  tet_of.assign(points.size(), -1);
+  fixed.assign(points.size(), 0);
+  for (std::size_t i = 0; i < faces.size(); i++) {
+    const Face &f = faces[i];
+    if (i + 1 < faces.size() && faces[i + 1].vertices == f.vertices) {
+      const Face &g = faces[++i];
+      neighbours[std::size_t(f.tet)][std::size_t(f.side)] = g.tet;
+      neighbours[std::size_t(g.tet)][std::size_t(g.side)] = f.tet;
+    } else {
+      for (std::int32_t v : f.vertices) fixed[std::size_t(v)] = 1;
+    }
+  }
+  for (std::size_t t = 0; t < tets.size(); t++)
+    for (std::int32_t v : tets[t]) tet_of[std::size_t(v)] = std::int32_t(t);
+}
+
+void AdaptiveMesh::measure(std::int32_t t) {
+  const TetFrame f = frame(t);
+  double sum = 0, w[4];
+  for_probes(t, [&](std::int32_t p) {
+    f.weights(probes[std::size_t(p)].point, w);
+    const double r = residual(tets[std::size_t(t)], w, probes[std::size_t(p)]);
+    sum += r * r;
+  });
+  error[std::size_t(t)] = sum;
+}
+
+double AdaptiveMesh::total_error() const {
+  double sum = 0;
+  for (double e : error) sum += e;
+  return sum;
+}
+
+double AdaptiveMesh::error_after(Span<const std::int32_t> old, Span<const Tet> fresh) const {
+  constexpr std::size_t most = 24;
+  TetFrame frames[most];
+  const std::size_t count = std::min(most, fresh.size());
+  for (std::size_t i = 0; i < count; i++) frames[i] = frame(fresh[i]);
+  double sum = 0;
+  for (std::int32_t t : old)
+    for_probes(t, [&](std::int32_t p) {
+      const Probe &probe = probes[std::size_t(p)];
+      double best = -std::numeric_limits<double>::infinity(), r = 0, w[4];
+      for (std::size_t i = 0; i < count && best < 0; i++) {
+        const double least = frames[i].weights(probe.point, w);
+        if (least <= best) continue;
+        best = least;
+        r = residual(fresh[i], w, probe);
+      }
+      sum += r * r;
+    });
+  return sum;
+}
+
+std::int32_t AdaptiveMesh::slot() {
+  if (!free_.empty()) {
+    const std::int32_t t = free_.back();
+    free_.pop_back();
+    return t;
+  }
+  tets.push_back({});
+  neighbours.push_back({});
+  error.push_back(0);
+  first_probe.push_back(-1);
+  return std::int32_t(tets.size()) - 1;
+}
+
+void AdaptiveMesh::replace(Span<const std::int32_t> old, Span<const Tet> fresh, Array<std::int32_t> &made) {
+  outer_.clear();
+  Array<std::int32_t> homeless(&memory_);
+  for (std::int32_t t : old) {
+    for (int k = 0; k < 4; k++) {
+      const std::int32_t beyond = neighbours[std::size_t(t)][std::size_t(k)];
+      if (std::find(old.begin(), old.end(), beyond) != old.end()) continue;
+      int side = 0;
+      if (beyond >= 0)
+        while (neighbours[std::size_t(beyond)][std::size_t(side)] != t) side++;
+      outer_.push_back({sorted_face(tets[std::size_t(t)], k), beyond, side});
+    }
+    for_probes(t, [&](std::int32_t p) { homeless.push_back(p); });
+  }
+  for (std::size_t i = old.size(); i-- > 0;) {
+    tets[std::size_t(old[i])][0] = -1;
+    error[std::size_t(old[i])] = 0;
+    first_probe[std::size_t(old[i])] = -1;
+    free_.push_back(old[i]);
+  }
+  made.clear();
+  for (const Tet &t : fresh) {
+    const std::int32_t s = slot();
+    made.push_back(s);
+    tets[std::size_t(s)] = t;
+    neighbours[std::size_t(s)] = {-1, -1, -1, -1};
+    first_probe[std::size_t(s)] = -1;
+    for (std::int32_t v : t) tet_of[std::size_t(v)] = s;
+    // A face of the cavity's wall, or one that another fresh tet waits with; what nobody claims is boundary.
+    for (int k = 0; k < 4; k++) {
+      const Triangle f = sorted_face(t, k);
+      const auto wall =
+          std::find_if(outer_.begin(), outer_.end(), [&](const OuterFace &face) { return face.vertices == f; });
+      if (wall == outer_.end()) {
+        outer_.push_back({f, s, k});
+        continue;
+      }
+      neighbours[std::size_t(s)][std::size_t(k)] = wall->beyond;
+      if (wall->beyond >= 0) neighbours[std::size_t(wall->beyond)][std::size_t(wall->side)] = s;
+      *wall = outer_.back();
+      outer_.pop_back();
+    }
+  }
+  Array<TetFrame> frames(&memory_);
+  for (const Tet &t : fresh) frames.push_back(frame(t));
+  for (std::size_t i = homeless.size(); i-- > 0;) {
+    double best = -std::numeric_limits<double>::infinity(), w[4];
+    std::size_t home = 0;
+    for (std::size_t k = 0; k < fresh.size() && best < 0; k++) {
+      const double least = frames[k].weights(probes[std::size_t(homeless[i])].point, w);
+      if (least > best) {
+        best = least;
+        home = k;
+      }
+    }
+    put_probe(homeless[i], made[home]);
+  }
+  for (std::int32_t t : made) measure(t);
+}
+
+bool AdaptiveMesh::ring(std::int32_t t, std::int32_t a, std::int32_t b, std::size_t most, Array<std::int32_t> &around,
+                        Array<std::int32_t> &vertices) const {
+  around.clear();
+  vertices.clear();
+  std::int32_t from = -1, to = -1;
+  const Tet &first = tets[std::size_t(t)];
+  for (std::int32_t v : first)
+    if (v != a && v != b) (from < 0 ? from : to) = v;
+  if (det(points[std::size_t(a)], points[std::size_t(b)], points[std::size_t(from)], points[std::size_t(to)]) < 0)
+    std::swap(from, to);
+  std::int32_t here = t;
+  do {
+    if (around.size() == most) return false;
+    around.push_back(here);
+    vertices.push_back(from);
+    const Tet &tet = tets[std::size_t(here)];
+    const auto side = std::size_t(std::find(tet.begin(), tet.end(), from) - tet.begin());
+    here = neighbours[std::size_t(here)][side];
+    if (here < 0) return false;
+    from = to;
+    for (std::int32_t v : tets[std::size_t(here)])
+      if (v != a && v != b && v != from) to = v;
+  } while (here != t);
+  return true;
+}
+
+void AdaptiveMesh::star(std::int32_t v, Array<std::int32_t> &around) const {
+  tets_with(tet_of[std::size_t(v)], &v, 1, around);
+}
+
+void AdaptiveMesh::tets_with(std::int32_t t, const std::int32_t *simplex, std::size_t size,
+                             Array<std::int32_t> &around) const {
+  around.clear();
+  around.push_back(t);
+  for (std::size_t i = 0; i < around.size(); i++) {
+    const Tet &tet = tets[std::size_t(around[i])];
+    for (std::size_t k = 0; k < 4; k++) {
+      const std::int32_t n = neighbours[std::size_t(around[i])][k];
+      if (n < 0 || std::find(simplex, simplex + size, tet[k]) != simplex + size) continue;
+      if (std::find(around.begin(), around.end(), n) == around.end()) around.push_back(n);
+    }
+  }
+}
+
+}  // namespace tetlod

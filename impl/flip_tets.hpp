@@ -1,0 +1,18 @@
+// Connectivity that follows the field: faces and edges exchanged where the probes gain by it.
+#pragma once
+#include "adaptive_mesh.hpp"
+#include "job.hpp"
+
+namespace tetlod {
+
+/// Smallest volume of a tet, over the cube of its longest edge.
+constexpr double least_shape = 1e-5;
+/// Whether t is positive, and no sliver worse than `limit`.
+bool is_sound(const AdaptiveMesh &mesh, const Tet &t, double limit);
+
+/// One sweep of face removals (2-3) and edge removals (3-2, 4-4, 5-6) over the tets that have an error. A flip is taken
+/// when it lowers the sum of squares by more than `price` for every tet that it adds; one that saves a tet may raise it
+/// by as much. Returns how many were taken.
+std::int64_t flip_tets(double price, Job &job, AdaptiveMesh &mesh);
+
+}  // namespace tetlod

@@ -1,0 +1,126 @@
+#include "insert_vertices.hpp"
+
+#include <algorithm>
+
+#include "flip_tets.hpp"
+
+namespace tetlod {
+
+namespace {
+
+/// A vertex nearer than this to a face of the boundary, in weights, goes onto it; to another face, stays off by it.
+constexpr double near_face = 0.12;
+
+Vec3 centre_of_residuals(const AdaptiveMesh &mesh, std::int32_t t) {
+  const TetFrame frame = mesh.frame(t);
+  Vec3 sum(0);
+  double total = 0;
+  mesh.for_probes(t, [&](std::int32_t p) {
+    const Probe &probe = mesh.probes[std::size_t(p)];
+    double w[4];
+    frame.weights(probe.point, w);
+    const double r = mesh.residual(mesh.tets[std::size_t(t)], w, probe);
+    sum += r * r * probe.point;
+    total += r * r;
+  });
+  return sum / total;
+}
+
+/// The value at p in t by least squares over its probes, where the hat function of the vertex to be is least weight.
+double value_at(const AdaptiveMesh &mesh, std::int32_t t, const Vec3 &p) {
+  const TetFrame frame = mesh.frame(t);
+  double at_p[4], above = 0, below = 0, value = 0;
+  frame.weights(p, at_p);
+  for (int k = 0; k < 4; k++) value += at_p[k] * mesh.value(t, k);
+  double low = value, high = value;
+  mesh.for_probes(t, [&](std::int32_t i) {
+    const Probe &probe = mesh.probes[std::size_t(i)];
+    double w[4], hat = 1;
+    frame.weights(probe.point, w);
+    for (int k = 0; k < 4; k++)
+      if (at_p[k] > 1e-9) hat = std::min(hat, w[k] / at_p[k]);
+    hat = std::max(hat, 0.0);
+    above -= hat * mesh.residual(mesh.tets[std::size_t(t)], w, probe);
+    below += hat * hat;
+    low = std::min(low, probe.value);
+    high = std::max(high, probe.value);
+  });
+  return below > 0 ? std::clamp(value + above / below, low, high) : value;
+}
+
+}  // namespace
+
+bool insert_vertex(std::int32_t t, const Vec3 &p, double value, double snap, AdaptiveMesh &mesh) {
+  double w[4];
+  mesh.frame(t).weights(p, w);
+  const auto least = std::size_t(std::min_element(w, w + 4) - w);
+  const Tet tet = mesh.tets[std::size_t(t)];
+  const std::int32_t beyond = mesh.neighbours[std::size_t(t)][least];
+  const bool on_face = w[least] < snap;
+  Vec3 x = p;
+  if (on_face) {  // exactly along the line to the far corner, so that the face is kept
+    x = Vec3(0);
+    for (std::size_t k = 0; k < 4; k++)
+      if (k != least) x += std::max(w[k], 0.0) / (1 - w[least]) * mesh.points[std::size_t(tet[k])];
+  }
+  Array<std::int32_t> old(&mesh.memory()), made(&mesh.memory());
+  Array<Tet> fresh(&mesh.memory());
+  const auto v = std::int32_t(mesh.points.size());
+  const auto divide = [&](std::int32_t whole, std::int32_t apex) {
+    old.push_back(whole);
+    for (std::size_t k = 0; k < 4; k++) {
+      Tet part = mesh.tets[std::size_t(whole)];
+      if (part[k] == apex) continue;
+      part[k] = v;
+      fresh.push_back(part);
+    }
+  };
+  divide(t, on_face ? tet[least] : -1);
+  if (on_face && beyond >= 0) {
+    const Tet &other = mesh.tets[std::size_t(beyond)];
+    std::size_t far = 0;
+    while (mesh.neighbours[std::size_t(beyond)][far] != t) far++;
+    divide(beyond, other[far]);
+  }
+  mesh.points.push_back(x);
+  for (const Tet &part : fresh)
+    if (!is_sound(mesh, part, least_shape)) {
+      mesh.points.pop_back();
+      return false;
+    }
+  mesh.values.push_back(value);
+  mesh.fixed.push_back(on_face && beyond < 0);
+  mesh.tet_of.push_back(-1);
+  mesh.replace(old, fresh, made);
+  return true;
+}
+
+std::int64_t insert_vertices(std::int64_t tets, Job &job, AdaptiveMesh &mesh) {
+  Array<std::int32_t> worst(&job.memory);
+  for (std::size_t t = 0; t < mesh.tets.size(); t++)
+    if (mesh.alive(std::int32_t(t)) && mesh.error[t] > 0) worst.push_back(std::int32_t(t));
+  std::sort(worst.begin(), worst.end(), [&](std::int32_t a, std::int32_t b) {
+    const double x = mesh.error[std::size_t(a)], y = mesh.error[std::size_t(b)];
+    return x != y ? x > y : a < b;
+  });
+  const auto goal = std::int64_t(mesh.count()) + tets;
+  std::int64_t inserted = 0;
+  for (std::size_t i = 0; i < worst.size() && std::int64_t(mesh.count()) < goal; i++) {
+    if (i % 64 == 0) job.poll(0.5);
+    const std::int32_t t = worst[i];
+    if (!mesh.alive(t) || mesh.error[std::size_t(t)] <= 0) continue;
+    Vec3 p = centre_of_residuals(mesh, t);
+    double w[4];
+    const double least = mesh.frame(t).weights(p, w);
+    const auto side = std::size_t(std::min_element(w, w + 4) - w);
+    const bool to_boundary = mesh.neighbours[std::size_t(t)][side] < 0 && least < near_face;
+    if (!to_boundary && least < near_face) {  // towards the middle
+      const Vec3 middle = 0.25 * (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2) + mesh.corner(t, 3));
+      p += (near_face - least) / (0.25 - least) * (middle - p);
+    }
+    inserted += insert_vertex(t, p, value_at(mesh, t, p), to_boundary ? near_face : 0, mesh);
+  }
+  return inserted;
+}
+
+}  // namespace tetlod

@@ -1,0 +1,17 @@
+// New vertices where the probes say that the mesh is worst.
+#pragma once
+#include "adaptive_mesh.hpp"
+#include "job.hpp"
+
+namespace tetlod {
+
+/// Splits the tets of largest error, each at the centre of its squared residuals, until `tets` more are there or none
+/// with an error is left. A centre near a face of the boundary goes onto it: the shape of the mesh stays. Returns how
+/// many vertices were inserted; their numbers are the last ones.
+std::int64_t insert_vertices(std::int64_t tets, Job &job, AdaptiveMesh &mesh);
+
+/// Makes p, which lies in tet t, a vertex with this value, dividing the tets at the face that p is on within `snap` of
+/// its weights. False where a tet would not be sound.
+bool insert_vertex(std::int32_t t, const Vec3 &p, double value, double snap, AdaptiveMesh &mesh);
+
+}  // namespace tetlod

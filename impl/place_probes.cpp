@@ -1,0 +1,142 @@
+#include "place_probes.hpp"
+
+#include <cmath>
+
+#include "kd_tree.hpp"
+
+namespace tetlod {
+
+namespace {
+
+/// A point this far out of a tet, in barycentric weight, still belongs to it.
+constexpr double tolerance = 1e-6;
+/// Chance of a centroid to be a probe: this for every tet, and this times its share of the field's changes.
+constexpr double chance_everywhere = 0.05, chance_by_change = 0.15;
+constexpr std::size_t block = 1024;
+constexpr int longest_walk = 200;
+
+/// Uniform in [0, 1), a number for each key.
+double random_unit(std::uint64_t key) {
+  key = (key + 1) * 0x9e3779b97f4a7c15u;
+  key = (key ^ (key >> 30)) * 0xbf58476d1ce4e5b9u;
+  key = (key ^ (key >> 27)) * 0x94d049bb133111ebu;
+  return double((key ^ (key >> 31)) >> 11) * 0x1p-53;
+}
+
+double change_of(const MeshView &mesh, const Tet &t) {
+  double low = mesh.scalars[std::size_t(t[0])], high = low;
+  for (std::int32_t v : t) {
+    low = std::min(low, mesh.scalars[std::size_t(v)]);
+    high = std::max(high, mesh.scalars[std::size_t(v)]);
+  }
+  return high - low;
+}
+
+void add_vertices(const MeshView &original, Memory &memory, Array<Probe> &probes) {
+  Array<std::uint8_t> used(original.points.size(), 0, &memory);
+  for (const Tet &t : original.tets)
+    for (std::int32_t v : t) used[std::size_t(v)] = 1;
+  for (std::size_t v = 0; v < used.size(); v++)
+    if (used[v]) probes.push_back({original.points[v], original.scalars[v]});
+}
+
+void add_centroids(const MeshView &original, Job &job, Array<Probe> &probes) {
+  double sum = 0;
+  for (const Tet &t : original.tets) sum += change_of(original, t);
+  const double mean = sum / double(original.tets.size());
+  for (std::size_t i = 0; i < original.tets.size(); i++) {
+    if (i % 16384 == 0) job.poll(0);
+    const Tet &t = original.tets[i];
+    const double share = mean > 0 ? change_of(original, t) / mean : 0;
+    if (random_unit(i) >= chance_everywhere + chance_by_change * share) continue;
+    Probe probe{Vec3(0), 0};
+    for (std::int32_t v : t) {
+      probe.point += 0.25 * original.points[std::size_t(v)];
+      probe.value += 0.25 * original.scalars[std::size_t(v)];
+    }
+    probes.push_back(probe);
+  }
+}
+
+/// Finds tets by walking, and where the walk meets the boundary, by a tree.
+class Locator {
+ public:
+  Locator(const AdaptiveMesh &mesh, Job &job) : mesh_(mesh), frames_(&job.memory), tree_(job.memory) {
+    Array<Box> boxes(mesh.tets.size(), &job.memory);
+    frames_.reserve(mesh.tets.size());
+    for (std::size_t t = 0; t < mesh.tets.size(); t++) {
+      frames_.push_back(mesh.frame(std::int32_t(t)));
+      for (int k = 0; k < 4; k++) boxes[t].add(mesh.corner(std::int32_t(t), k));
+      const Vec3 margin = tolerance * (boxes[t].high - boxes[t].low);
+      boxes[t].low -= margin;
+      boxes[t].high += margin;
+    }
+    tree_.build(std::move(boxes), 4, [&] { job.poll(0.1); });
+  }
+
+  /// The tet of p, searched from `hint` on; -1 outside.
+  std::int32_t find(const Vec3 &p, std::int32_t hint) const {
+    const std::int32_t t = walk(p, hint);
+    return t >= 0 ? t : search(p);
+  }
+
+ private:
+  std::int32_t walk(const Vec3 &p, std::int32_t t) const {
+    for (int step = 0; step < longest_walk; step++) {
+      double w[4];
+      if (frames_[std::size_t(t)].weights(p, w) >= 0) return t;
+      const auto worst = std::size_t(std::min_element(w, w + 4) - w);
+      t = mesh_.neighbours[std::size_t(t)][worst];
+      if (t < 0) return -1;
+    }
+    return -1;
+  }
+
+  std::int32_t search(const Vec3 &p) const {
+    double best = -tolerance;
+    std::int32_t found = -1;
+    tree_.any_overlap({p, p}, [&](std::int32_t t) {
+      double w[4];
+      const double least = frames_[std::size_t(t)].weights(p, w);
+      if (least > best) {
+        best = least;
+        found = t;
+      }
+      return best >= 0;
+    });
+    return found;
+  }
+
+  const AdaptiveMesh &mesh_;
+  Array<TetFrame> frames_;
+  KdTree tree_;
+};
+
+}  // namespace
+
+std::int64_t place_probes(const MeshView &original, Job &job, AdaptiveMesh &mesh) {
+  add_vertices(original, job.memory, mesh.probes);
+  add_centroids(original, job, mesh.probes);
+  const Locator locator(mesh, job);
+  Array<std::int32_t> home(mesh.probes.size(), -1, &job.memory);
+  job.parallel.for_blocks(home.size(), block, [&](std::size_t begin, std::size_t end) {
+    std::int32_t hint = 0;
+    for (std::size_t i = begin; i < end; i++) {
+      home[i] = locator.find(mesh.probes[i].point, hint);
+      if (home[i] >= 0) hint = home[i];
+    }
+    job.poll(0.1 + 0.1 * double(end) / double(home.size()));
+  });
+  mesh.next_probe.assign(home.size(), -1);
+  std::int64_t outside = 0;
+  for (std::size_t i = home.size(); i-- > 0;) {
+    if (home[i] >= 0)
+      mesh.put_probe(std::int32_t(i), home[i]);
+    else
+      outside++;
+  }
+  for (std::size_t t = 0; t < mesh.tets.size(); t++) mesh.measure(std::int32_t(t));
+  return outside;
+}
+
+}  // namespace tetlod

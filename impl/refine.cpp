@@ -1,0 +1,102 @@
+#include "refine.hpp"
+
+#include "adaptive_mesh.hpp"
+#include "fit_values.hpp"
+#include "flip_tets.hpp"
+#include "insert_vertices.hpp"
+#include "move_vertices.hpp"
+#include "place_probes.hpp"
+
+namespace tetlod {
+
+namespace {
+
+/// What a tet must gain to be worth it, in mean errors of a tet.
+constexpr double price_of_tet = 1.33;
+constexpr int fit_steps = 8, last_fit_steps = 20;
+/// Tets that an inserted vertex brings in the end, flips included, for one of the three that it brings at once.
+constexpr double rounds = 3;
+
+class Refinement {
+ public:
+  Refinement(const MeshView &original, const RefineOptions &options, Job &job, TetMesh &mesh)
+      : options_(options), job_(job), out_(mesh), mesh_(job.memory) {
+    mesh_.points = std::move(mesh.points);
+    mesh_.values = std::move(mesh.scalars);
+    mesh_.tets = std::move(mesh.tets);
+    first_inserted_ = mesh_.points.size();
+    mesh_.connect();
+    report_.probes_outside = place_probes(original, job, mesh_);
+  }
+
+  RefineReport run() {
+    if (options_.follow_field) follow_field();
+    insert(options_.tets - std::int64_t(mesh_.count()));
+    fit_values(last_fit_steps, job_, mesh_);
+    for (std::size_t v = first_inserted_; v < mesh_.points.size(); v++) report_.inserted_on_boundary += mesh_.fixed[v];
+    write();
+    return report_;
+  }
+
+ private:
+  void follow_field() {
+    fit_values(fit_steps, job_, mesh_);
+    move(0);
+    flip();
+    move(0);
+    for (int round = 0; round < int(rounds); round++) {
+      fit_values(fit_steps, job_, mesh_);
+      const std::size_t first = mesh_.points.size();
+      insert((options_.tets - std::int64_t(mesh_.count())) / (round + 1 < int(rounds) ? 2 : 1));
+      move(first);
+      flip();
+      move(0);
+    }
+  }
+
+  void move(std::size_t first) { report_.moves += move_vertices(first, job_, mesh_); }
+  void flip() { report_.flips += flip_tets(price_of_tet * mesh_.total_error() / double(mesh_.count()), job_, mesh_); }
+  void insert(std::int64_t tets) {
+    if (tets > 0) report_.inserted += insert_vertices(tets, job_, mesh_);
+  }
+
+  void write() {
+    Array<std::int32_t> number(mesh_.points.size(), -1, &job_.memory);
+    out_.points.clear();
+    out_.scalars.clear();
+    out_.tets.clear();
+    out_.boundary.clear();
+    for (const bool boundary : {true, false})
+      for (std::size_t v = 0; v < number.size(); v++) {
+        if ((mesh_.fixed[v] != 0) != boundary || mesh_.tet_of[v] < 0) continue;
+        number[v] = std::int32_t(out_.points.size());
+        out_.points.push_back(mesh_.points[v]);
+        out_.scalars.push_back(mesh_.values[v]);
+      }
+    for (std::size_t t = 0; t < mesh_.tets.size(); t++) {
+      if (!mesh_.alive(std::int32_t(t))) continue;
+      Tet tet = mesh_.tets[t];
+      for (std::int32_t &v : tet) v = number[std::size_t(v)];
+      for (std::size_t k = 0; k < 4; k++)
+        if (mesh_.neighbours[t][k] < 0)
+          out_.boundary.push_back(
+              {tet[std::size_t(tet_face[k][0])], tet[std::size_t(tet_face[k][1])], tet[std::size_t(tet_face[k][2])]});
+      out_.tets.push_back(tet);
+    }
+  }
+
+  const RefineOptions &options_;
+  Job &job_;
+  TetMesh &out_;
+  AdaptiveMesh mesh_;
+  std::size_t first_inserted_ = 0;
+  RefineReport report_;
+};
+
+}  // namespace
+
+RefineReport refine(const MeshView &original, const RefineOptions &options, Job &job, TetMesh &mesh) {
+  return Refinement(original, options, job, mesh).run();
+}
+
+}  // namespace tetlod

@@ -1,0 +1,23 @@
+// Past the paper: the remeshed result follows the field of the original, on the small mesh alone.
+#pragma once
+#include "job.hpp"
+#include "mesh.hpp"
+
+namespace tetlod {
+
+struct RefineOptions {
+  std::int64_t tets = 0;     ///< how many there shall be
+  bool follow_field = true;  ///< also move vertices and flip
+};
+
+struct RefineReport {
+  std::int64_t inserted = 0, inserted_on_boundary = 0, flips = 0, moves = 0, probes_outside = 0;
+};
+
+/// `mesh` has points, scalars and tets. Fits its values, moves inner vertices, flips faces and edges and inserts
+/// vertices, so that the field comes nearer to the original's. The surface stays where it is; the faces of it that
+/// get a vertex are divided. Points are numbered anew, those of the boundary first, in their order; mesh.boundary is
+/// made.
+RefineReport refine(const MeshView &original, const RefineOptions &options, Job &job, TetMesh &mesh);
+
+}  // namespace tetlod
