@@ -6,9 +6,15 @@ set(TETLOD_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/tetlod)
 set(TETLOD_PKGCONFIG_DIR ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 
 install(TARGETS tetlod EXPORT tetlodTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(FILES ${PROJECT_SOURCE_DIR}/capi/tetlod.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(FILES ${PROJECT_SOURCE_DIR}/capi/tetlod.h
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(EXPORT tetlodTargets NAMESPACE tetlod:: DESTINATION ${TETLOD_CMAKE_DIR})
+
+if(TARGET tetlod_fortran)
+  install(TARGETS tetlod_fortran EXPORT tetlodFortranTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(EXPORT tetlodFortranTargets NAMESPACE tetlod:: DESTINATION ${TETLOD_CMAKE_DIR})
+endif()
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/tetlodConfig.cmake.in
   ${PROJECT_BINARY_DIR}/cmake/tetlodConfig.cmake
@@ -26,5 +32,11 @@ install(FILES
 file(RELATIVE_PATH TETLOD_PC_TO_PREFIX
   ${CMAKE_INSTALL_PREFIX}/${TETLOD_PKGCONFIG_DIR} ${CMAKE_INSTALL_PREFIX})
 string(REGEX REPLACE "/$" "" TETLOD_PC_TO_PREFIX "${TETLOD_PC_TO_PREFIX}")
-configure_file(${CMAKE_CURRENT_LIST_DIR}/tetlod.pc.in ${PROJECT_BINARY_DIR}/cmake/tetlod.pc @ONLY)
-install(FILES ${PROJECT_BINARY_DIR}/cmake/tetlod.pc DESTINATION ${TETLOD_PKGCONFIG_DIR})
+set(TETLOD_PC_FILES tetlod)
+if(TARGET tetlod_fortran)
+  list(APPEND TETLOD_PC_FILES tetlod_fortran)
+endif()
+foreach(name IN LISTS TETLOD_PC_FILES)
+  configure_file(${CMAKE_CURRENT_LIST_DIR}/${name}.pc.in ${PROJECT_BINARY_DIR}/cmake/${name}.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/cmake/${name}.pc DESTINATION ${TETLOD_PKGCONFIG_DIR})
+endforeach()
