@@ -1,0 +1,137 @@
+// The C++ wrapper on a cube of tets with a linear field.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <tetlod.hpp>
+
+namespace {
+
+constexpr int size = 8, row = size + 1;
+
+struct Cube {
+  std::vector<double> xyz, values;
+  std::vector<std::int32_t> corners;
+
+  Cube() {
+    for (int n = 0; n < row * row * row; n++) {
+      const double p[3] = {double(n % row), double(n / row % row), double(n / (row * row))};
+      xyz.insert(xyz.end(), p, p + 3);
+      values.push_back(p[0] + 2 * p[1] - 3 * p[2]);
+    }
+    for (int cell = 0; cell < size * size * size; cell++)
+      add_cell(cell % size, cell / size % size, cell / (size * size));
+  }
+
+  // Six tets around the cell's diagonal, one for each order of the axes.
+  void add_cell(int i, int j, int k) {
+    int order[3] = {0, 1, 2};
+    do {
+      int p[3] = {i, j, k};
+      corners.push_back((p[2] * row + p[1]) * row + p[0]);
+      for (int axis : order) {
+        p[axis]++;
+        corners.push_back((p[2] * row + p[1]) * row + p[0]);
+      }
+    } while (std::next_permutation(order, order + 3));
+  }
+
+  std::int64_t points() const { return std::int64_t(values.size()); }
+  std::int64_t tets() const { return std::int64_t(corners.size() / 4); }
+
+  tetlod::Context submitted() const {
+    tetlod::Context lod;
+    lod.set_rho(0.2);
+    lod.set_sigma(1);
+    lod.submit_points({xyz.data(), points(), 3});
+    lod.submit_tets({corners.data(), tets(), 4}, 0);
+    lod.submit_scalars("linear", {values.data(), points()});
+    return lod;
+  }
+};
+
+TEST(Wrapper, SimplifiesAndKeepsALinearField) {
+  const Cube cube;
+  tetlod::Context lod = cube.submitted();
+  EXPECT_EQ(lod.check().status, TETLOD_OK);
+  EXPECT_GT(lod.estimate_memory(), 0u);
+  lod.run();
+  const tetlod::Counts n = lod.fetch_counts();
+  const auto points = lod.view_points();
+  const auto values = lod.view_scalars();
+  EXPECT_LT(n.tets, cube.tets());
+  EXPECT_EQ(lod.view_tets().tuples(), n.tets);
+  EXPECT_EQ(lod.fetch_report().tets_out, n.tets);
+  for (std::int64_t i = 0; i < n.points; i++)
+    EXPECT_NEAR(values(i), points(i, 0) + 2 * points(i, 1) - 3 * points(i, 2), 1e-9);
+  EXPECT_LT(lod.measure_error(1).max, 1e-9);
+  std::int64_t counted = 0;
+  for (std::int64_t count : lod.histogram(1, 10)) counted += count;
+  EXPECT_EQ(counted, n.points);
+}
+
+TEST(Wrapper, FetchesIntoStridedMemory) {
+  const Cube cube;
+  tetlod::Context lod = cube.submitted();
+  lod.run();
+  const tetlod::Counts n = lod.fetch_counts();
+  std::vector<float> planes(3 * std::size_t(n.points));
+  lod.fetch_points({planes.data(), n.points, 3, sizeof(float), std::int64_t(sizeof(float)) * n.points});
+  std::vector<std::int64_t> tets(4 * std::size_t(n.tets));
+  lod.fetch_tets(1, {tets.data(), n.tets, 4});
+  for (std::int64_t i = 0; i < n.points; i++)
+    EXPECT_EQ(planes[std::size_t(n.points + i)], float(lod.view_points()(i, 1)));
+  for (std::size_t i = 0; i < tets.size(); i++) EXPECT_EQ(tets[i], lod.view_tets().data()[i] + 1);
+}
+
+TEST(Wrapper, SeparateCoordinatesGiveTheSameBytes) {
+  const Cube cube;
+  tetlod::Context packed = cube.submitted(), apart = cube.submitted();
+  const std::int64_t stride = 3 * sizeof(double), n = cube.points();
+  apart.submit_points_xyz({cube.xyz.data(), n, 1, stride}, {cube.xyz.data() + 1, n, 1, stride},
+                          {cube.xyz.data() + 2, n, 1, stride});
+  packed.run();
+  apart.run();
+  EXPECT_EQ(packed.fetch_report().hash, apart.fetch_report().hash);
+}
+
+TEST(Wrapper, FailuresThrowTheirStatus) {
+  tetlod::Context lod;
+  try {
+    lod.set_rho(2);
+    FAIL() << "rho 2 was taken";
+  } catch (const tetlod::Error &error) {
+    EXPECT_EQ(error.status(), TETLOD_ERR_OPTION);
+    EXPECT_EQ(error.what(), lod.last_message());
+  }
+  EXPECT_THROW(lod.run(), tetlod::Error);
+  EXPECT_THROW(tetlod::option_bounds(-1), tetlod::Error);
+  EXPECT_EQ(tetlod::option_bounds(TETLOD_OPT_RHO).most, 1.0);
+}
+
+TEST(Wrapper, ProgressCancels) {
+  const Cube cube;
+  tetlod::Context lod = cube.submitted();
+  int calls = 0;
+  lod.set_progress([&calls](std::int32_t, double) { return ++calls > 0; });
+  tetlod::Context moved = std::move(lod);  // the function stays where the library looks for it
+  try {
+    moved.run();
+    FAIL() << "not cancelled";
+  } catch (const tetlod::Error &error) {
+    EXPECT_EQ(error.status(), TETLOD_ERR_CANCELLED);
+  }
+  EXPECT_GE(calls, 1);
+  moved.set_progress({});
+  EXPECT_NO_THROW(moved.run());
+}
+
+TEST(Wrapper, ACallbacksExceptionComesOutOfTheCall) {
+  const Cube cube;
+  tetlod::Context lod = cube.submitted();
+  lod.set_progress([](std::int32_t, double) -> bool { throw std::logic_error("the host's own"); });
+  EXPECT_THROW(lod.run(), std::logic_error);
+  lod.set_progress({});
+  EXPECT_NO_THROW(lod.run());
+}
+
+}  // namespace
