@@ -159,7 +159,7 @@ contains
     call lod%create(stat=stat)
     call expect(stat == TETLOD_ERR_STATE, "created twice")
     call lod%set_rho(2.0, stat=stat, errmsg=message)
-    call expect(stat == TETLOD_ERR_OPTION .and. message == lod%last_message(), "rho 2")
+    call expect(stat == TETLOD_ERR_OPTION .and. index(message, "rho") > 0, "rho 2")
     call lod%get_real(TETLOD_OPT_RHO, rho)
     call expect(abs(rho - 0.25d0) < tiny(rho), "rho unchanged")
     flat = 0
