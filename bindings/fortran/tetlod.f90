@@ -68,8 +68,8 @@ contains
   function tetlod_option_from_name(name) result(option)
     character(len=*), intent(in) :: name
     integer(c_int32_t) :: option
-    character(kind=c_char), allocatable, target :: text(:)
-    allocate (text, source=c_text(name))
+    character(kind=c_char), target :: text(len_trim(name) + 1)
+    text = c_text(name)
     option = c_option_from_name(c_loc(text))
   end function
 

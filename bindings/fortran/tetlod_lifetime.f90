@@ -4,7 +4,7 @@ module tetlod_lifetime
     c_loc, c_null_funptr, c_null_ptr, c_ptr, c_associated, c_size_t, c_sizeof
   use tetlod_c
   use tetlod_text, only: c_text, fortran_text
-  use tetlod_types, only: tetlod_config, TETLOD_API_VERSION, TETLOD_ERR_STATE, TETLOD_OK
+  use tetlod_types, only: tetlod_config, TETLOD_API_VERSION, TETLOD_ERR_MEMORY, TETLOD_ERR_STATE, TETLOD_OK
   implicit none
   private
   public :: tetlod_log_procedure, tetlod_progress_procedure
@@ -68,6 +68,7 @@ contains
     character(kind=c_char), allocatable, target :: path(:)
     type(tetlod_config) :: config
     integer(c_int32_t) :: status
+    integer :: refused
     if (c_associated(this%handle)) then
       call conclude(TETLOD_ERR_STATE, "create: the context exists already; destroy it first", stat, errmsg)
       return
@@ -79,7 +80,11 @@ contains
     if (present(release)) config%release = release
     if (present(allocator_user)) config%allocator_user = allocator_user
     if (present(remesher)) then
-      allocate (path, source=c_text(remesher))
+      allocate (path, source=c_text(remesher), stat=refused)
+      if (refused /= 0) then
+        call conclude(TETLOD_ERR_MEMORY, "create: no memory for the path of the remesher", stat, errmsg)
+        return
+      end if
       config%remesher = c_loc(path)
     end if
     status = c_create(config, this%handle)
@@ -144,7 +149,10 @@ contains
 
   subroutine make_callbacks(this)
     class(tetlod_owner), intent(inout) :: this
-    if (.not. associated(this%called)) allocate (this%called)
+    integer :: refused
+    if (associated(this%called)) return
+    allocate (this%called, stat=refused)
+    if (refused /= 0) error stop "tetlod: no memory for a callback"
   end subroutine
 
   subroutine call_log(user, level, message) bind(C)
@@ -174,8 +182,11 @@ contains
     character(len=:), allocatable :: message
     character(kind=c_char), allocatable, target :: buffer(:)
     integer(c_size_t) :: length
+    integer :: refused
     length = c_last_message(this%handle, c_null_ptr, 0_c_size_t)
-    allocate (buffer(length + 1))
+    message = ""
+    allocate (buffer(length + 1), stat=refused)
+    if (refused /= 0) return
     length = c_last_message(this%handle, c_loc(buffer), length + 1)
     message = fortran_text(c_loc(buffer))
   end function

@@ -96,8 +96,8 @@ contains
     real(real32), intent(in), target :: values(:)
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    character(kind=c_char), allocatable, target :: text(:)
-    allocate (text, source=c_text(name))
+    character(kind=c_char), target :: text(len_trim(name) + 1)
+    text = c_text(name)
     call this%settle(c_submit_scalars(this%c_handle(), c_loc(text), array_of(values)), stat, errmsg)
   end subroutine
 
@@ -108,8 +108,8 @@ contains
     real(real64), intent(in), target :: values(:)
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    character(kind=c_char), allocatable, target :: text(:)
-    allocate (text, source=c_text(name))
+    character(kind=c_char), target :: text(len_trim(name) + 1)
+    text = c_text(name)
     call this%settle(c_submit_scalars(this%c_handle(), c_loc(text), array_of(values)), stat, errmsg)
   end subroutine
 
