@@ -93,6 +93,7 @@ constexpr StatusText status_texts[] = {
     {TETLOD_ERR_MESH_TOO_LARGE, "the mesh has 2^29 points or tets, or more"},
     {TETLOD_ERR_REMESH, "TetGen failed on the simplified boundary"},
     {TETLOD_ERR_BACKEND_MISSING, "tetlod-remesh cannot be run"},
+    {TETLOD_ERR_MAX_ERROR, "the bound of the error cannot be held"},
 };
 
 constexpr const char *stage_names[] = {"prepare", "boundary", "decimate", "sample", "cull", "remesh", "values"};

@@ -33,6 +33,7 @@ static_assert(same(Status::mesh_nonmanifold, TETLOD_ERR_MESH_NONMANIFOLD), "");
 static_assert(same(Status::mesh_intersecting, TETLOD_ERR_MESH_INTERSECTING), "");
 static_assert(same(Status::mesh_partition, TETLOD_ERR_MESH_PARTITION), "");
 static_assert(same(Status::mesh_too_large, TETLOD_ERR_MESH_TOO_LARGE), "");
+static_assert(same(Status::max_error, TETLOD_ERR_MAX_ERROR), "");
 static_assert(same(Status::remesh, TETLOD_ERR_REMESH) && same(Status::backend_missing, TETLOD_ERR_BACKEND_MISSING), "");
 
 void compute_in_default_state() noexcept {

@@ -78,6 +78,7 @@ tetlod_run_report report_of(const Outcome &outcome) {
   to.samples = from.samples;
   to.steiner_points = from.steiner_points;
   to.inserted_points = from.inserted_points;
+  to.max_error = from.max_error;
   to.points_out = from.points_out;
   to.tets_out = from.tets_out;
   to.remesh_attempts = from.remesh_attempts;

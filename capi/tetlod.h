@@ -89,7 +89,9 @@ enum {
   TETLOD_ERR_MESH_TOO_LARGE = 37,    /* 2^29 points or tets, or more */
   /* the remesher */
   TETLOD_ERR_REMESH = 40,         /* TetGen failed on this boundary in every way that was tried */
-  TETLOD_ERR_BACKEND_MISSING = 41 /* tetlod-remesh not found, not executable, or of another version */
+  TETLOD_ERR_BACKEND_MISSING = 41, /* tetlod-remesh not found, not executable, or of another version */
+  /* the bound */
+  TETLOD_ERR_MAX_ERROR = 42 /* TETLOD_OPT_MAX_ERROR cannot be held */
 };
 
 /* Element types of arrays. */
@@ -159,6 +161,8 @@ typedef struct tetlod_run_report {
   uint64_t hash;                 /* of the result's bytes */
   double scalar_min, scalar_max; /* of the original's values */
   int64_t inserted_points;       /* inside, after the remeshing (TETLOD_OPT_TARGET_RATIO) */
+  double max_error; /* with TETLOD_OPT_TARGET_RATIO or _MAX_ERROR: largest error at the original vertices, over the
+                       range; those outside the result count with TETLOD_OPT_MAX_ERROR alone */
 } tetlod_run_report;
 
 /* The field error of the last result, as the paper estimates it [4]. Errors are |result - original|, relative to the
@@ -299,9 +303,13 @@ enum {
                                    boundary is decimated with a cost that sees the field, samples are taken where a
                                    linear field would be wrong, values are fitted to all original values, and rho,
                                    sigma, lambda and min-distance have no meaning; 0, the default: as published */
-  TETLOD_OPT_EFFORT = 21        /* int, "effort": with a target ratio, TETLOD_EFFORT_FAST: one pass;
+  TETLOD_OPT_EFFORT = 21,       /* int, "effort": with a target ratio, TETLOD_EFFORT_FAST: one pass;
                                    TETLOD_EFFORT_ACCURATE, the default: then vertices inside move, faces and edges
                                    flip, and vertices are inserted, where the field gains by it */
+  TETLOD_OPT_MAX_ERROR = 22     /* real, "max-error": bound of the error at every original vertex, as a fraction of the
+                                   values' range; one that lies outside the result is compared at the nearest point of
+                                   its boundary. Begins with target-ratio (0: 0.05), and takes what it needs beyond it;
+                                   0, the default: none. Where it cannot be held: TETLOD_ERR_MAX_ERROR */
 };
 enum { TETLOD_EFFORT_FAST = 1, TETLOD_EFFORT_ACCURATE = 2 };
 enum { TETLOD_POLICY_ERROR = 0, TETLOD_POLICY_REPAIR = 1 };
@@ -352,6 +360,7 @@ TETLOD_API tetlod_status tetlod_estimate_memory(tetlod_context *context, uint64_
  * TETLOD_ERR_MESH_*         see the enumeration
  * TETLOD_ERR_MEMORY_LIMIT, TETLOD_ERR_CANCELLED, TETLOD_ERR_TIME_LIMIT
  * TETLOD_ERR_REMESH, TETLOD_ERR_BACKEND_MISSING
+ * TETLOD_ERR_MAX_ERROR
  *
  * Guarantees of a result: every tet has a positive volume, every face is used by one or two tets, the boundary is
  * closed, does not cross itself and has the components and the Euler characteristic of the original's, every value lies

@@ -42,6 +42,19 @@ void AdaptiveMesh::connect() {
   }
   for (std::size_t t = 0; t < tets.size(); t++)
     for (std::int32_t v : tets[t]) tet_of[std::size_t(v)] = std::int32_t(t);
+  find_touching();
+}
+
+/// Vertices that have tets beyond those that their faces lead to.
+void AdaptiveMesh::find_touching() {
+  Array<std::int32_t> count(points.size(), 0, &memory_), around(&memory_);
+  for (const Tet &t : tets)
+    for (std::int32_t v : t) count[std::size_t(v)]++;
+  for (std::size_t v = 0; v < points.size(); v++) {
+    if (!fixed[v]) continue;
+    star(std::int32_t(v), around);
+    if (std::int32_t(around.size()) != count[v]) fixed[v] = touching;
+  }
 }
 
 void AdaptiveMesh::measure(std::int32_t t) {

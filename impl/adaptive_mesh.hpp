@@ -41,6 +41,9 @@ struct TetFrame {
   }
 };
 
+/// What AdaptiveMesh::fixed says of a vertex beside 0 and 1: on the boundary, where the solid touches itself.
+constexpr std::uint8_t touching = 2;
+
 class AdaptiveMesh {
  public:
   explicit AdaptiveMesh(Memory &memory)
@@ -60,11 +63,12 @@ class AdaptiveMesh {
 
   Array<Vec3> points;
   Array<double> values;
-  Array<std::uint8_t> fixed;  ///< vertices of the boundary
+  Array<std::uint8_t> fixed;  ///< vertices of the boundary: 1, or `touching`
   Array<Tet> tets;            ///< every one positive; the first corner of a free slot is -1
   Array<Tet> neighbours;      ///< across the face opposite each corner; -1 on the boundary
   Array<double> error;        ///< of each tet: the sum of squares at its probes
-  Array<Probe> probes;
+  Array<Probe> probes;        ///< first those at original vertices
+  std::size_t vertex_probes = 0;
   Array<std::int32_t> first_probe, next_probe;  ///< lists of the probes in each tet, ended by -1
   Array<std::int32_t> tet_of;                   ///< one of the tets of each vertex
 
@@ -122,6 +126,7 @@ class AdaptiveMesh {
     int side;
   };
   std::int32_t slot();
+  void find_touching();
 
   Memory &memory_;
   Array<std::int32_t> free_;

@@ -31,8 +31,12 @@ double value_at(const AdaptiveMesh &mesh, std::int32_t t, const Vec3 &p) {
   const TetFrame frame = mesh.frame(t);
   double at_p[4], above = 0, below = 0, value = 0;
   frame.weights(p, at_p);
-  for (int k = 0; k < 4; k++) value += at_p[k] * mesh.value(t, k);
-  double low = value, high = value;
+  double low = mesh.value(t, 0), high = low;
+  for (int k = 0; k < 4; k++) {
+    value += at_p[k] * mesh.value(t, k);
+    low = std::min(low, mesh.value(t, k));
+    high = std::max(high, mesh.value(t, k));
+  }
   mesh.for_probes(t, [&](std::int32_t i) {
     const Probe &probe = mesh.probes[std::size_t(i)];
     double w[4], hat = 1;
@@ -45,51 +49,51 @@ double value_at(const AdaptiveMesh &mesh, std::int32_t t, const Vec3 &p) {
     low = std::min(low, probe.value);
     high = std::max(high, probe.value);
   });
-  return below > 0 ? std::clamp(value + above / below, low, high) : value;
+  return std::clamp(below > 0 ? value + above / below : value, low, high);
 }
 
 }  // namespace
 
-bool insert_vertex(std::int32_t t, const Vec3 &p, double value, double snap, AdaptiveMesh &mesh) {
-  double w[4];
-  mesh.frame(t).weights(p, w);
-  const auto least = std::size_t(std::min_element(w, w + 4) - w);
+bool insert_vertex(std::int32_t t, const Vec3 &p, double value, double snap, double least, AdaptiveMesh &mesh) {
   const Tet tet = mesh.tets[std::size_t(t)];
-  const std::int32_t beyond = mesh.neighbours[std::size_t(t)][least];
-  const bool on_face = w[least] < snap;
-  Vec3 x = p;
-  if (on_face) {  // exactly along the line to the far corner, so that the face is kept
-    x = Vec3(0);
-    for (std::size_t k = 0; k < 4; k++)
-      if (k != least) x += std::max(w[k], 0.0) / (1 - w[least]) * mesh.points[std::size_t(tet[k])];
+  double w[4], total = 0;
+  mesh.frame(t).weights(p, w);
+  std::int32_t simplex[4];
+  std::size_t size = 0;
+  Vec3 sum(0);
+  for (std::size_t k = 0; k < 4; k++) {
+    if (w[k] < snap) continue;
+    simplex[size++] = tet[k];
+    sum += w[k] * mesh.points[std::size_t(tet[k])];
+    total += w[k];
   }
+  if (size < 2) return false;
+  // Where the solid touches itself along an edge, not all of its tets are neighbours.
+  if (size == 2 && mesh.fixed[std::size_t(simplex[0])] == touching && mesh.fixed[std::size_t(simplex[1])] == touching)
+    return false;
   Array<std::int32_t> old(&mesh.memory()), made(&mesh.memory());
   Array<Tet> fresh(&mesh.memory());
+  mesh.tets_with(t, simplex, size, old);
   const auto v = std::int32_t(mesh.points.size());
-  const auto divide = [&](std::int32_t whole, std::int32_t apex) {
-    old.push_back(whole);
+  bool on_boundary = false;
+  for (std::int32_t whole : old)
     for (std::size_t k = 0; k < 4; k++) {
       Tet part = mesh.tets[std::size_t(whole)];
-      if (part[k] == apex) continue;
+      if (std::find(simplex, simplex + size, part[k]) == simplex + size) {
+        on_boundary |= mesh.neighbours[std::size_t(whole)][k] < 0;
+        continue;
+      }
       part[k] = v;
       fresh.push_back(part);
     }
-  };
-  divide(t, on_face ? tet[least] : -1);
-  if (on_face && beyond >= 0) {
-    const Tet &other = mesh.tets[std::size_t(beyond)];
-    std::size_t far = 0;
-    while (mesh.neighbours[std::size_t(beyond)][far] != t) far++;
-    divide(beyond, other[far]);
-  }
-  mesh.points.push_back(x);
+  mesh.points.push_back(size == 4 ? p : sum / total);
   for (const Tet &part : fresh)
-    if (!is_sound(mesh, part, least_shape)) {
+    if (!is_sound(mesh, part, least)) {
       mesh.points.pop_back();
       return false;
     }
   mesh.values.push_back(value);
-  mesh.fixed.push_back(on_face && beyond < 0);
+  mesh.fixed.push_back(on_boundary);
   mesh.tet_of.push_back(-1);
   mesh.replace(old, fresh, made);
   return true;
@@ -118,7 +122,7 @@ std::int64_t insert_vertices(std::int64_t tets, Job &job, AdaptiveMesh &mesh) {
       const Vec3 middle = 0.25 * (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2) + mesh.corner(t, 3));
       p += (near_face - least) / (0.25 - least) * (middle - p);
     }
-    inserted += insert_vertex(t, p, value_at(mesh, t, p), to_boundary ? near_face : 0, mesh);
+    inserted += insert_vertex(t, p, value_at(mesh, t, p), to_boundary ? near_face : 0, least_shape, mesh);
   }
   return inserted;
 }

@@ -10,8 +10,9 @@ namespace tetlod {
 /// many vertices were inserted; their numbers are the last ones.
 std::int64_t insert_vertices(std::int64_t tets, Job &job, AdaptiveMesh &mesh);
 
-/// Makes p, which lies in tet t, a vertex with this value, dividing the tets at the face that p is on within `snap` of
-/// its weights. False where a tet would not be sound.
-bool insert_vertex(std::int32_t t, const Vec3 &p, double value, double snap, AdaptiveMesh &mesh);
+/// Makes p, which lies in tet t, a vertex with this value. Corners of t with a weight below `snap` do not count: p goes
+/// onto the face or edge of the others, and all tets there are divided. False where it would coincide with a vertex, or
+/// a tet would have a worse shape than `least`.
+bool insert_vertex(std::int32_t t, const Vec3 &p, double value, double snap, double least, AdaptiveMesh &mesh);
 
 }  // namespace tetlod

@@ -34,7 +34,12 @@ class StageTimer {
   Clock::time_point begin_ = Clock::now();
 };
 
-bool as_published(const Options &options) { return options.target_ratio <= 0; }
+bool as_published(const Options &options) { return options.target_ratio <= 0 && options.max_error <= 0; }
+
+/// A bound without a size begins with few tets.
+constexpr double first_ratio = 0.05;
+
+double ratio_of(const Options &options) { return options.target_ratio > 0 ? options.target_ratio : first_ratio; }
 
 /// What a target size is spent on.
 struct Budget {
@@ -49,19 +54,17 @@ constexpr double tets_a_sample = 6.5, tets_a_boundary_point = 3;
 constexpr double spare = 0.05;
 constexpr int most_rounds = 6;
 /// What the field's range counts as beside the diagonal, when the boundary is decimated: more costs geometry.
-constexpr double field_weight = 0.3;
+constexpr double field_weight = 0.15;
 
 /// A surface has fewer triangles to lose than its solid has tets, and less to lose them for.
-double boundary_share(double ratio) { return std::pow(ratio, 0.63); }
+double boundary_share(double ratio) { return std::pow(ratio, 0.66); }
 
-Budget budget_of(const Options &options, const Report &report) {
+Budget budget_of(double ratio, const Report &report) {
   Budget budget;
-  budget.sigma = options.sigma;
-  if (as_published(options)) return budget;
   const double whole = double(report.tets_in - report.dropped_tets), triangles = double(report.boundary_triangles_in);
-  budget.tets = std::int64_t(options.target_ratio * whole);
+  budget.tets = std::int64_t(ratio * whole);
   const double most = 0.6 * double(budget.tets) * 2 / tets_a_boundary_point;
-  const double kept = std::min(boundary_share(options.target_ratio) * triangles, most);
+  const double kept = std::min(boundary_share(ratio) * triangles, most);
   budget.sigma = kept / triangles;
   const double left = (1 - spare) * double(budget.tets) - kept / 2 * tets_a_boundary_point;
   budget.samples = std::size_t(std::max(left / tets_a_sample, 0.0));
@@ -77,17 +80,19 @@ class Pipeline {
   void begin() {
     prepare();
     extract();
-    budget_ = budget_of(options_, report_);
+    budget_.sigma = options_.sigma;
+    if (!as_published(options_)) budget_ = budget_of(ratio_of(options_), report_);
     sample();
   }
 
   void run(Worker &worker) {
     begin();
-    double sigma = budget_.sigma;
-    while (!simplify_with(sigma, worker)) sigma = less_decimated(sigma);
-    if (!as_published(options_)) meet_target(sigma, worker);
-    reconstruct_field();
-    if (!as_published(options_)) refine();
+    if (as_published(options_)) {
+      simplify(worker);
+      reconstruct_field();
+    } else {
+      run_to_target(worker);
+    }
     finish();
   }
 
@@ -95,40 +100,77 @@ class Pipeline {
   /// When TetGen finds no way with a boundary, one with more edges may have it; the last is the original's.
   static double less_decimated(double sigma) { return std::min(std::max(2 * sigma, 0.1), 1.0); }
 
-  /// What TetGen makes of so many samples is known afterwards alone: too many tets are taken back here, too few are
-  /// made good by refine().
-  void meet_target(double sigma, Worker &worker) {
-    for (int round = 0; round < most_rounds; round++) {
-      const double excess = double(remeshed_.tets.size()) - double(budget_.tets);
-      if (excess <= 0) return;
-      if (budget_.samples > 0) {
-        budget_.samples -=
-            std::min(budget_.samples, std::size_t(1 + (excess + spare * double(budget_.tets)) / tets_a_sample));
-        sample();
-      } else {
-        const double before = sigma;
-        sigma *= double(budget_.tets) / double(remeshed_.tets.size());
-        decimate(sigma);
-        if (topology_.edges >= report_.boundary_edges_out && before < 1 && round) return;
-      }
-      cull();
-      remesh(worker);
+  /// As the paper does, but for how it comes to its parameters.
+  void simplify(Worker &worker) {
+    while (!simplify_with(budget_.sigma, worker)) budget_.sigma = less_decimated(budget_.sigma);
+  }
+
+  /// Where the bound does not hold because the boundary is too coarse, one with more triangles follows.
+  void run_to_target(Worker &worker) {
+    for (double ratio = ratio_of(options_);; ratio *= 2) {
+      simplify(worker);
+      meet_target(worker);
+      reconstruct_field();
+      if (refine() == 0) return;
+      const double sigma = budget_.sigma;
+      if (sigma >= 1) fail_bound();
+      budget_ = budget_of(std::min(2 * ratio, 1.0), report_);
+      budget_.sigma = less_decimated(sigma);
+      sample();
     }
   }
 
-  void refine() {
+  [[noreturn]] void fail_bound() const {
+    fail(Status::max_error, "max-error %s cannot be held: the largest error is %s, with the whole boundary",
+         number(options_.max_error).c_str(), number(report_.max_error).c_str());
+  }
+
+  /// What TetGen makes of so many samples is known afterwards alone: too many tets are taken back here, too few are
+  /// made good by refine().
+  void meet_target(Worker &worker) {
+    double sigma = budget_.sigma;
+    for (int round = 0; round < most_rounds; round++) {
+      const double excess = double(remeshed_.tets.size()) - double(budget_.tets);
+      if (excess <= 0) return;
+      const std::int64_t edges = report_.boundary_edges_out;
+      if (budget_.samples > 0) {
+        const double surplus = (excess + spare * double(budget_.tets)) / tets_a_sample;
+        budget_.samples -= std::min(budget_.samples, std::size_t(1 + surplus));
+        sample();
+      } else {
+        sigma *= double(budget_.tets) / double(remeshed_.tets.size());
+        decimate(sigma);
+        if (report_.boundary_edges_out >= edges) round = most_rounds;  // the topology allows no less
+      }
+      if (!fill(worker)) return simplify(worker);
+    }
+  }
+
+  /// How many original vertices are beyond the bound.
+  std::int64_t refine() {
     const StageTimer timer(Stage::values, job_, report_);
-    const RefineOptions options{budget_.tets, options_.effort == effort_accurate};
+    const double range = report_.scalar_max - report_.scalar_min;
+    const RefineOptions options{budget_.tets, options_.effort == effort_accurate, options_.max_error * range};
     const RefineReport refined = tetlod::refine(original_.view, options, job_, mesh_);
     report_.inserted_points = refined.inserted - refined.inserted_on_boundary;
     report_.boundary_points_out += refined.inserted_on_boundary;
     report_.boundary_edges_out += 3 * refined.inserted_on_boundary;
     report_.boundary_triangles_out += 2 * refined.inserted_on_boundary;
+    report_.max_error = range > 0 ? refined.max_error / range : refined.max_error;
+    return refined.beyond_bound;
   }
 
   /// False: the boundary of this sigma cannot be remeshed, and one that is less decimated is left to try.
   bool simplify_with(double sigma, Worker &worker) {
     decimate(sigma);
+    if (fill(worker)) return true;
+    if (sigma >= 1) throw Error(Status::remesh, failure_);
+    report_.boundary_retries++;
+    return false;
+  }
+
+  /// False: TetGen finds no way.
+  bool fill(Worker &worker) {
     cull();
     try {
       remesh(worker);
@@ -136,9 +178,8 @@ class Pipeline {
     } catch (const Error &error) {
       if (error.status() != Status::remesh) throw;
       refuse_overlapping_solids();
-      if (sigma >= 1) throw;
-      if (job_.log) job_.log(2, text("sigma %s: %s", number(sigma).c_str(), error.what()).c_str());
-      report_.boundary_retries++;
+      failure_ = error.what();
+      if (job_.log) job_.log(2, error.what());
       return false;
     }
   }
@@ -246,6 +287,7 @@ class Pipeline {
 
   void reconstruct_field() {
     const StageTimer timer(Stage::values, job_, report_);
+    mesh_.scalars.clear();
     mesh_.scalars.reserve(remeshed_.points.size());
     std::size_t first_steiner = remeshed_.points.size();
     for (std::size_t i = 0; i < remeshed_.points.size() && first_steiner > i; i++) {
@@ -283,6 +325,7 @@ class Pipeline {
   TetMesh &mesh_;
   Report &report_;
   Budget budget_;
+  std::string failure_;  // of the last remeshing
   Original original_{job_.memory};
   Boundary boundary_{job_.memory};
   Surface surface_{job_.memory};                // the simplified boundary

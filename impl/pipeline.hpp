@@ -22,6 +22,7 @@ constexpr std::int64_t effort_fast = 1, effort_accurate = 2;
 struct Options {
   double target_ratio = 0;  ///< tets kept, of the original's; 0: the paper's method, sized by rho and sigma
   std::int64_t effort = effort_accurate;  ///< of a run with a target
+  double max_error = 0;                   ///< bound of the error at the original vertices, over the range; 0: none
   double rho = 0.01;
   double sigma = 0.1;
   double lambda = 0.1;
@@ -67,6 +68,7 @@ struct Report {
   double seconds_total = 0;
   std::uint64_t peak_bytes = 0, worker_peak_bytes = 0, hash = 0;
   double scalar_min = 0, scalar_max = 0;
+  double max_error = 0;  ///< of a run with a target: at the original vertices, over the range
 };
 
 struct Result {

@@ -1,8 +1,10 @@
 #include "place_probes.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "kd_tree.hpp"
+#include "surface_distance.hpp"
 
 namespace tetlod {
 
@@ -11,7 +13,7 @@ namespace {
 /// A point this far out of a tet, in barycentric weight, still belongs to it.
 constexpr double tolerance = 1e-6;
 /// Chance of a centroid to be a probe: this for every tet, and this times its share of the field's changes.
-constexpr double chance_everywhere = 0.05, chance_by_change = 0.15;
+constexpr double chance_everywhere = 0.08, chance_by_change = 0.24;
 constexpr std::size_t block = 1024;
 constexpr int longest_walk = 200;
 
@@ -112,10 +114,36 @@ class Locator {
   KdTree tree_;
 };
 
+/// Moves the vertices that are outside to the nearest point of the boundary, into the tet there.
+void project(Job &job, Array<std::int32_t> &home, AdaptiveMesh &mesh) {
+  Array<Triangle> faces(&job.memory);
+  Array<std::int32_t> tet_of_face(&job.memory);
+  for (std::size_t t = 0; t < mesh.tets.size(); t++)
+    for (int k = 0; k < 4; k++)
+      if (mesh.neighbours[t][std::size_t(k)] < 0) {
+        faces.push_back(sorted_face(mesh.tets[t], k));
+        tet_of_face.push_back(std::int32_t(t));
+      }
+  const NearestTriangle nearest(mesh.points, faces, 8, job);
+  job.parallel.for_blocks(mesh.vertex_probes, block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; i++) {
+      if (home[i] >= 0) continue;
+      const NearestPoint at = nearest.nearest(mesh.probes[i].point);
+      home[i] = tet_of_face[std::size_t(at.triangle)];
+      mesh.probes[i].point = Vec3(0);
+      for (int k = 0; k < 3; k++)
+        mesh.probes[i].point +=
+            at.weights[k] * mesh.points[std::size_t(faces[std::size_t(at.triangle)][std::size_t(k)])];
+    }
+    job.poll(0.2);
+  });
+}
+
 }  // namespace
 
-std::int64_t place_probes(const MeshView &original, Job &job, AdaptiveMesh &mesh) {
+std::int64_t place_probes(const MeshView &original, bool project_outside, Job &job, AdaptiveMesh &mesh) {
   add_vertices(original, job.memory, mesh.probes);
+  mesh.vertex_probes = mesh.probes.size();
   add_centroids(original, job, mesh.probes);
   const Locator locator(mesh, job);
   Array<std::int32_t> home(mesh.probes.size(), -1, &job.memory);
@@ -128,13 +156,10 @@ std::int64_t place_probes(const MeshView &original, Job &job, AdaptiveMesh &mesh
     job.poll(0.1 + 0.1 * double(end) / double(home.size()));
   });
   mesh.next_probe.assign(home.size(), -1);
-  std::int64_t outside = 0;
-  for (std::size_t i = home.size(); i-- > 0;) {
-    if (home[i] >= 0)
-      mesh.put_probe(std::int32_t(i), home[i]);
-    else
-      outside++;
-  }
+  const auto outside = std::count(home.begin(), home.begin() + std::ptrdiff_t(mesh.vertex_probes), -1);
+  if (project_outside && outside > 0) project(job, home, mesh);
+  for (std::size_t i = home.size(); i-- > 0;)
+    if (home[i] >= 0) mesh.put_probe(std::int32_t(i), home[i]);
   for (std::size_t t = 0; t < mesh.tets.size(); t++) mesh.measure(std::int32_t(t));
   return outside;
 }

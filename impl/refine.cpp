@@ -3,6 +3,7 @@
 #include "adaptive_mesh.hpp"
 #include "fit_values.hpp"
 #include "flip_tets.hpp"
+#include "hold_bound.hpp"
 #include "insert_vertices.hpp"
 #include "move_vertices.hpp"
 #include "place_probes.hpp"
@@ -15,7 +16,7 @@ namespace {
 constexpr double price_of_tet = 1.33;
 constexpr int fit_steps = 8, last_fit_steps = 20;
 /// Tets that an inserted vertex brings in the end, flips included, for one of the three that it brings at once.
-constexpr double rounds = 3;
+constexpr int rounds = 4;
 
 class Refinement {
  public:
@@ -26,14 +27,16 @@ class Refinement {
     mesh_.tets = std::move(mesh.tets);
     first_inserted_ = mesh_.points.size();
     mesh_.connect();
-    report_.probes_outside = place_probes(original, job, mesh_);
+    report_.probes_outside = place_probes(original, options.bound > 0, job, mesh_);
   }
 
   RefineReport run() {
     if (options_.follow_field) follow_field();
     insert(options_.tets - std::int64_t(mesh_.count()));
     fit_values(last_fit_steps, job_, mesh_);
-    for (std::size_t v = first_inserted_; v < mesh_.points.size(); v++) report_.inserted_on_boundary += mesh_.fixed[v];
+    if (options_.bound > 0) report_.beyond_bound = hold_bound(options_.bound, job_, mesh_);
+    report_.max_error = largest_error(mesh_).value;
+    count_inserted();
     write();
     return report_;
   }
@@ -44,10 +47,10 @@ class Refinement {
     move(0);
     flip();
     move(0);
-    for (int round = 0; round < int(rounds); round++) {
+    for (int round = 0; round < rounds; round++) {
       fit_values(fit_steps, job_, mesh_);
       const std::size_t first = mesh_.points.size();
-      insert((options_.tets - std::int64_t(mesh_.count())) / (round + 1 < int(rounds) ? 2 : 1));
+      insert((options_.tets - std::int64_t(mesh_.count())) / (round + 1 < rounds ? 2 : 1));
       move(first);
       flip();
       move(0);
@@ -57,7 +60,13 @@ class Refinement {
   void move(std::size_t first) { report_.moves += move_vertices(first, job_, mesh_); }
   void flip() { report_.flips += flip_tets(price_of_tet * mesh_.total_error() / double(mesh_.count()), job_, mesh_); }
   void insert(std::int64_t tets) {
-    if (tets > 0) report_.inserted += insert_vertices(tets, job_, mesh_);
+    if (tets > 0) insert_vertices(tets, job_, mesh_);
+  }
+
+  void count_inserted() {
+    report_.inserted = std::int64_t(mesh_.points.size() - first_inserted_);
+    for (std::size_t v = first_inserted_; v < mesh_.points.size(); v++)
+      report_.inserted_on_boundary += mesh_.fixed[v] != 0;
   }
 
   void write() {

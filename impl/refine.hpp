@@ -8,10 +8,13 @@ namespace tetlod {
 struct RefineOptions {
   std::int64_t tets = 0;     ///< how many there shall be
   bool follow_field = true;  ///< also move vertices and flip
+  double bound = 0;          ///< of the error at every original vertex, absolute; 0: none
 };
 
 struct RefineReport {
   std::int64_t inserted = 0, inserted_on_boundary = 0, flips = 0, moves = 0, probes_outside = 0;
+  std::int64_t beyond_bound = 0;  ///< original vertices where the bound could not be held
+  double max_error = 0;           ///< at the original vertices; those outside count with a bound alone
 };
 
 /// `mesh` has points, scalars and tets. Fits its values, moves inner vertices, flips faces and edges and inserts

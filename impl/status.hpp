@@ -30,6 +30,7 @@ enum class Status : std::int32_t {
   mesh_too_large = 37,
   remesh = 40,
   backend_missing = 41,
+  max_error = 42,
 };
 
 /// Every failure inside the library: what happened, and a sentence that names the index and the value.

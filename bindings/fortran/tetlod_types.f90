@@ -31,12 +31,15 @@ module tetlod_types
   integer(c_int32_t), parameter, public :: TETLOD_ERR_MESH_TOO_LARGE = 37_c_int32_t
   integer(c_int32_t), parameter, public :: TETLOD_ERR_REMESH = 40_c_int32_t
   integer(c_int32_t), parameter, public :: TETLOD_ERR_BACKEND_MISSING = 41_c_int32_t
+  integer(c_int32_t), parameter, public :: TETLOD_ERR_MAX_ERROR = 42_c_int32_t
   integer(c_int32_t), parameter, public :: TETLOD_INT32 = 1_c_int32_t
   integer(c_int32_t), parameter, public :: TETLOD_INT64 = 2_c_int32_t
   integer(c_int32_t), parameter, public :: TETLOD_FLOAT32 = 3_c_int32_t
   integer(c_int32_t), parameter, public :: TETLOD_FLOAT64 = 4_c_int32_t
   integer(c_int32_t), parameter, public :: TETLOD_UINT8 = 5_c_int32_t
   integer(c_int32_t), parameter, public :: TETLOD_PRESET_PAPER = 0_c_int32_t
+  integer(c_int32_t), parameter, public :: TETLOD_PRESET_FAST = 1_c_int32_t
+  integer(c_int32_t), parameter, public :: TETLOD_PRESET_ACCURATE = 2_c_int32_t
   integer(c_int32_t), parameter, public :: TETLOD_OPT_RHO = 1_c_int32_t
   integer(c_int32_t), parameter, public :: TETLOD_OPT_SIGMA = 2_c_int32_t
   integer(c_int32_t), parameter, public :: TETLOD_OPT_LAMBDA = 3_c_int32_t
@@ -56,6 +59,11 @@ module tetlod_types
   integer(c_int32_t), parameter, public :: TETLOD_OPT_ON_OVERLAP = 17_c_int32_t
   integer(c_int32_t), parameter, public :: TETLOD_OPT_ON_UNUSED = 18_c_int32_t
   integer(c_int32_t), parameter, public :: TETLOD_OPT_ON_NONFINITE = 19_c_int32_t
+  integer(c_int32_t), parameter, public :: TETLOD_OPT_TARGET_RATIO = 20_c_int32_t
+  integer(c_int32_t), parameter, public :: TETLOD_OPT_EFFORT = 21_c_int32_t
+  integer(c_int32_t), parameter, public :: TETLOD_OPT_MAX_ERROR = 22_c_int32_t
+  integer(c_int32_t), parameter, public :: TETLOD_EFFORT_FAST = 1_c_int32_t
+  integer(c_int32_t), parameter, public :: TETLOD_EFFORT_ACCURATE = 2_c_int32_t
   integer(c_int32_t), parameter, public :: TETLOD_POLICY_ERROR = 0_c_int32_t
   integer(c_int32_t), parameter, public :: TETLOD_POLICY_REPAIR = 1_c_int32_t
 
@@ -103,6 +111,8 @@ module tetlod_types
     integer(c_int64_t) :: worker_peak_bytes = 0
     integer(c_int64_t) :: hash = 0
     real(c_double) :: scalar_min = 0, scalar_max = 0
+    integer(c_int64_t) :: inserted_points = 0
+    real(c_double) :: max_error = 0
   end type
 
   ! The field error of the last result, relative to the range of the original's values.

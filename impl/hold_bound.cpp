@@ -1,0 +1,123 @@
+#include "hold_bound.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "flip_tets.hpp"
+#include "insert_vertices.hpp"
+
+namespace tetlod {
+
+namespace {
+
+/// Kept clear of, so that another's rounding does not find the bound passed.
+constexpr double margin = 1e-3;
+/// A vertex as near as this to a face goes onto it; more and more, where a tet would be too flat otherwise.
+constexpr double snaps[] = {1e-9, 1e-6, 1e-4};
+/// Flatter tets than elsewhere are taken, for the bound's sake.
+constexpr double flattest = 1e-9;
+/// Sweeps that also flip; the sweeps after them insert alone, which ends.
+constexpr int flipping_sweeps = 3;
+
+double error_at(const AdaptiveMesh &mesh, const TetFrame &frame, std::int32_t t, std::int32_t p) {
+  double w[4];
+  frame.weights(mesh.probes[std::size_t(p)].point, w);
+  return std::abs(mesh.residual(mesh.tets[std::size_t(t)], w, mesh.probes[std::size_t(p)]));
+}
+
+LargestError largest_in(const AdaptiveMesh &mesh, std::int32_t t) {
+  LargestError largest;
+  const TetFrame frame = mesh.frame(t);
+  mesh.for_probes(t, [&](std::int32_t p) {
+    if (std::size_t(p) >= mesh.vertex_probes) return;
+    const double error = error_at(mesh, frame, t, p);
+    if (error > largest.value) largest = {error, p};
+  });
+  return largest;
+}
+
+/// The corner that p is: its value becomes the original's there.
+bool correct_corner(const AdaptiveMesh &mesh, std::int32_t t, const Vec3 &p, std::int32_t &corner) {
+  double w[4];
+  mesh.frame(t).weights(p, w);
+  const auto most = std::size_t(std::max_element(w, w + 4) - w);
+  corner = mesh.tets[std::size_t(t)][most];
+  return w[most] > 1 - 1e-6;
+}
+
+class Bound {
+ public:
+  Bound(double bound, Job &job, AdaptiveMesh &mesh)
+      : bound_((1 - margin) * bound), job_(job), mesh_(mesh), kept_(mesh.points.size(), 0, &job.memory) {}
+
+  std::int64_t hold() {
+    for (int sweep = 0;; sweep++) {
+      const std::int64_t inserted = sweep_once();
+      if (inserted == 0) return left_;
+      if (sweep < flipping_sweeps) flip_tets(mesh_.total_error() / double(mesh_.count()), job_, mesh_);
+    }
+  }
+
+ private:
+  std::int64_t sweep_once() {
+    std::int64_t done = 0;
+    left_ = 0;
+    const std::size_t count = mesh_.tets.size();
+    for (std::size_t t = 0; t < count; t++) {
+      if (t % 256 == 0) job_.poll(0.9);
+      if (!mesh_.alive(std::int32_t(t))) continue;
+      const LargestError worst = largest_in(mesh_, std::int32_t(t));
+      if (worst.value <= bound_) continue;
+      if (serve(std::int32_t(t), mesh_.probes[std::size_t(worst.probe)]))
+        done++;
+      else
+        left_++;
+    }
+    return done;
+  }
+
+  bool serve(std::int32_t t, const Probe probe) {
+    std::int32_t corner;
+    if (correct_corner(mesh_, t, probe.point, corner)) return give_value(corner, probe.value);
+    for (double snap : snaps)
+      if (insert_vertex(t, probe.point, probe.value, snap, flattest, mesh_)) {
+        kept_.resize(mesh_.points.size(), 0);
+        kept_.back() = 1;
+        return true;
+      }
+    return false;
+  }
+
+  /// Once a vertex has been given its value it is not given another.
+  bool give_value(std::int32_t v, double value) {
+    if (kept_[std::size_t(v)]) return false;
+    kept_[std::size_t(v)] = 1;
+    mesh_.values[std::size_t(v)] = value;
+    Array<std::int32_t> around(&job_.memory);
+    mesh_.star(v, around);
+    for (std::int32_t t : around) mesh_.measure(t);
+    return true;
+  }
+
+  double bound_;
+  Job &job_;
+  AdaptiveMesh &mesh_;
+  Array<std::uint8_t> kept_;  // vertices that are an original one, with its value
+  std::int64_t left_ = 0;
+};
+
+}  // namespace
+
+LargestError largest_error(const AdaptiveMesh &mesh) {
+  LargestError largest;
+  for (std::size_t t = 0; t < mesh.tets.size(); t++) {
+    if (!mesh.alive(std::int32_t(t))) continue;
+    const LargestError here = largest_in(mesh, std::int32_t(t));
+    if (here.value > largest.value) largest = here;
+  }
+  return largest;
+}
+
+std::int64_t hold_bound(double bound, Job &job, AdaptiveMesh &mesh) { return Bound(bound, job, mesh).hold(); }
+
+}  // namespace tetlod

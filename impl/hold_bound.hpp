@@ -1,0 +1,21 @@
+// A bound that holds: nowhere, at the original's vertices, is the field off by more.
+#pragma once
+#include "adaptive_mesh.hpp"
+#include "job.hpp"
+
+namespace tetlod {
+
+struct LargestError {
+  double value = 0;
+  std::int64_t probe = -1;
+};
+
+/// At the probes of original vertices that lie in a tet.
+LargestError largest_error(const AdaptiveMesh &mesh);
+
+/// Makes original vertices, with their values, vertices of the mesh where it is off by more than `bound`, the worst of
+/// each tet first, until there is none; those on the boundary divide its faces. Returns how many are left where that
+/// could not be done: two of them at one point of the boundary, or a tet would be too flat.
+std::int64_t hold_bound(double bound, Job &job, AdaptiveMesh &mesh);
+
+}  // namespace tetlod
