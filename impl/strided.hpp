@@ -50,4 +50,16 @@ struct StridedArray {
   }
 };
 
+/// An array of the library's own.
+inline StridedArray packed_reals(const double *data, std::size_t tuples, int components) {
+  StridedArray array;
+  array.tuples = std::int64_t(tuples);
+  array.components = components;
+  array.component_stride = sizeof(double);
+  array.tuple_stride = components * array.component_stride;
+  array.data = reinterpret_cast<unsigned char *>(const_cast<double *>(data));
+  array.present = true;
+  return array;
+}
+
 }  // namespace tetlod

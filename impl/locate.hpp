@@ -1,0 +1,24 @@
+// 3.5  Where points lie in the original mesh: in which tet, or at which point of the boundary.
+#pragma once
+#include <array>
+#include <cstdint>
+
+#include "job.hpp"
+#include "mesh.hpp"
+
+namespace tetlod {
+
+/// Either tet or triangle is not -1. Weights are not negative and add up to 1 within rounding; a point with the very
+/// coordinates of a vertex has that vertex's weight 1 and all others 0.
+struct Place {
+  std::int32_t tet = -1;       ///< the tet that holds the point
+  std::int32_t triangle = -1;  ///< of the boundary, for a point outside of every tet: where the nearest point lies
+  std::array<double, 4> weights{};
+};
+
+/// places[i]: of points[i]. Of several tets that hold a point (within rounding) the one that holds it best, then the
+/// lowest. Only tets whose box holds a point get into the k-d tree, at most `leaf` in a leaf.
+void locate(const MeshView &mesh, Span<const Triangle> boundary, Span<const Vec3> points, std::int64_t leaf, Job &job,
+            Array<Place> &places);
+
+}  // namespace tetlod
