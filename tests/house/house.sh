@@ -63,8 +63,10 @@ rule 'of capi/ others include tetlod.h alone' "$(includes_of capi "$none" impl b
 rule 'only unit tests, benchmarks and fuzzers reach past tetlod.h into impl/' \
   "$(includes_of impl 'tests/unit/|tests/bench/' bindings tests)"
 
+# The public header is one file by design, and half of it prose.
 too_long() {
-  sources "${all[@]}" | xargs -r wc -l | awk '$2 != "total" && $1 > 400 {print $2 ": " $1 " lines"}'
+  sources "${all[@]}" | xargs -r wc -l |
+    awk '$2 != "total" && $1 > ($2 == "capi/tetlod.h" ? 500 : 400) {print $2 ": " $1 " lines"}'
 }
 rule 'a file has at most 400 lines' "$(too_long)"
 
