@@ -28,6 +28,8 @@ std::int64_t alignment_of(ElementType type) {
 void require_type(const tetlod_array &array, const Shape &shape) {
   const bool reals = array.type == TETLOD_FLOAT32 || array.type == TETLOD_FLOAT64;
   const bool integers = array.type == TETLOD_INT32 || array.type == TETLOD_INT64;
+  if (shape.kind == Shape::bytes && array.type != TETLOD_UINT8)
+    fail(Status::argument, "%s: type %d is not TETLOD_UINT8 (5)", shape.name, array.type);
   if (shape.kind == Shape::reals && !reals)
     fail(Status::argument, "%s: type %d is neither TETLOD_FLOAT32 (3) nor TETLOD_FLOAT64 (4)", shape.name, array.type);
   if (shape.kind == Shape::integers && !integers)
@@ -35,6 +37,12 @@ void require_type(const tetlod_array &array, const Shape &shape) {
 }
 
 void require_components(const tetlod_array &array, const Shape &shape) {
+  if (shape.components == Shape::any_number) {
+    if (array.components < 1 || array.components > Shape::most_components)
+      fail(Status::argument, "%s: %d components are not in [1, %d]", shape.name, array.components,
+           Shape::most_components);
+    return;
+  }
   if (array.components != shape.components)
     fail(Status::argument, "%s: %d components, %d are needed", shape.name, array.components, shape.components);
 }

@@ -41,9 +41,10 @@ void copy_struct(const Struct &from, Struct *out) {
 
 /// What an array has to be.
 struct Shape {
+  static constexpr int any_number = 0, most_components = 64;
   const char *name;
-  int components;
-  enum Kind { reals, integers } kind;
+  int components;  ///< or any_number: 1 to most_components
+  enum Kind { reals, integers, bytes } kind;
 };
 
 /// An array to read from, with 2^29 tuples at most. Nothing of its contents is looked at.

@@ -124,9 +124,13 @@ AllocatorHooks HostAllocator::hooks() noexcept {
   return {capi::allocate, capi::release, this};
 }
 
-const Outcome &last_outcome(const tetlod_context &context) {
+Outcome &last_outcome(tetlod_context &context) {
   if (!context.outcome) fail(Status::state, "there is no result: tetlod_run has not succeeded yet");
   return *context.outcome;
+}
+
+const Outcome &last_outcome(const tetlod_context &context) {
+  return last_outcome(const_cast<tetlod_context &>(context));
 }
 
 }  // namespace tetlod::capi

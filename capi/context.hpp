@@ -38,7 +38,8 @@ struct Progress {
 struct Outcome {
   explicit Outcome(Memory &memory) : result(memory) {}
   Result result;
-  Input input;  ///< as it was submitted then
+  Input input;      ///< as it was submitted then
+  Options options;  ///< of the run
   int threads = 1;
 };
 
@@ -77,5 +78,6 @@ namespace tetlod::capi {
 
 /// The last result. Throws Status::state when there is none.
 const Outcome &last_outcome(const tetlod_context &context);
+Outcome &last_outcome(tetlod_context &context);
 
 }  // namespace tetlod::capi

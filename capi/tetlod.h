@@ -27,10 +27,10 @@
  *              the library, in the host's floating-point state, and must not call it with the same context (but for
  *              tetlod_cancel): that is TETLOD_ERR_STATE, and tetlod_destroy is ignored. A C++ exception that leaves
  *              one ends the run with TETLOD_ERR_CANCELLED.
- *   Memory     Submitted arrays are borrowed: they are read during tetlod_run(), tetlod_measure_error() and
- *              tetlod_histogram(), never written, and must live, unchanged in place and shape, until the same slot is
- *              submitted again, tetlod_clear(), or tetlod_destroy(). Only the bytes that an array describes are read
- *              or written.
+ *   Memory     Submitted arrays are borrowed: they are read during tetlod_run(), tetlod_measure_error(),
+ *              tetlod_histogram() and the first tetlod_fetch_stencil() or tetlod_transfer() of a result, never
+ *              written, and must live, unchanged in place and shape, until the same slot is submitted again,
+ *              tetlod_clear(), or tetlod_destroy(). Only the bytes that an array describes are read or written.
  *   Host       The library never prints, exits, aborts, installs signal handlers, or touches rand(), the locale, the
  *              floating-point state or the environment, and no C++ exception leaves it. TetGen runs in a process of
  *              its own, tetlod-remesh; whatever happens to it is a status here.
@@ -338,6 +338,16 @@ TETLOD_API tetlod_status tetlod_submit_tets(tetlod_context *context, const tetlo
 /* The field that steers the simplification: a value a point, 1 component, float32 or float64. name is copied and may be
  * NULL. */
 TETLOD_API tetlod_status tetlod_submit_scalars(tetlod_context *context, const char *name, const tetlod_array *values);
+enum {
+  TETLOD_POINT_FIELD = 0, /* a tuple a point */
+  TETLOD_CELL_FIELD = 1   /* a tuple a tet, in the order of the submitted tets */
+};
+/* A field that rides along: tetlod_run carries it over to the result, where tetlod_fetch_field finds it. It has no part
+ * in the simplification, and its values may be anything, also NaN. name is copied, not empty, and unique among these
+ * fields: submitting it again, with either association, replaces it. values: 1 to 64 components, float32 or float64, as
+ * many tuples as points or tets, which tetlod_run looks at. Since 0.1, as all of these. */
+TETLOD_API tetlod_status tetlod_submit_field(tetlod_context *context, const char *name, int32_t association,
+                                             const tetlod_array *values);
 /* Forgets what was submitted (the arrays may go), keeps options and the last result. */
 TETLOD_API tetlod_status tetlod_clear(tetlod_context *context);
 
@@ -356,7 +366,7 @@ TETLOD_API tetlod_status tetlod_estimate_memory(tetlod_context *context, uint64_
  * The result replaces the previous one on success alone.
  *
  * TETLOD_ERR_STATE          points, tets or scalars are missing
- * TETLOD_ERR_ARGUMENT       as many scalars as points are needed
+ * TETLOD_ERR_ARGUMENT       as many scalars as points are needed; of fields as many tuples as points or tets
  * TETLOD_ERR_MESH_*         see the enumeration
  * TETLOD_ERR_MEMORY_LIMIT, TETLOD_ERR_CANCELLED, TETLOD_ERR_TIME_LIMIT
  * TETLOD_ERR_REMESH, TETLOD_ERR_BACKEND_MISSING
@@ -392,6 +402,29 @@ TETLOD_API tetlod_status tetlod_fetch_tets(const tetlod_context *context, int32_
 /* 3 components, counter-clockwise seen from outside. */
 TETLOD_API tetlod_status tetlod_fetch_boundary(const tetlod_context *context, int32_t index_base, tetlod_array *dst);
 TETLOD_API tetlod_status tetlod_fetch_scalars(const tetlod_context *context, tetlod_array *dst);
+/* A field that was submitted before the last successful tetlod_run, on its result; dst has as many components as it.
+ * A point field: a tuple a point, the mean of original values that tetlod_fetch_stencil tells; never beyond them, so
+ * that the field's range is kept. A cell field: a tuple a tet, the value of the original tet that holds the tet's
+ * centroid, or for a centroid outside of the original of the tet at the nearest point of its boundary: no value is made
+ * up, so that numbers of regions and materials stay what they are. The result keeps its fields whatever is submitted
+ * and however later runs fail. TETLOD_ERR_ARGUMENT: the run carried no such field, or other components. */
+TETLOD_API tetlod_status tetlod_fetch_field(const tetlod_context *context, const char *name, tetlod_array *dst);
+/* Each vertex of the result as a mean of original ones: ids (4 components, int32 or int64, numbered from index_base)
+ * and their barycentric weights (4 components, float32 or float64), none negative, adding up to 1 within rounding.
+ * An original vertex is itself, with weights 1, 0, 0, 0. A point outside of every original tet takes the nearest point
+ * of the original boundary: three weights and a 0. An id of weight 0 is a vertex, too. Of points that were merged the
+ * lowest is named. The scalars of the result are not made from it where decimation placed a vertex.
+ * It takes no time until it is asked for: unless the run carried a point field, the first call of this or of
+ * tetlod_transfer for a result reads points, tets and scalars again, which must still be submitted then.
+ * TETLOD_ERR_STATE: they are not. TETLOD_ERR_BUFFER_SIZE, TETLOD_ERR_MEMORY_LIMIT, TETLOD_ERR_CANCELLED. */
+TETLOD_API tetlod_status tetlod_fetch_stencil(const tetlod_context *context, int32_t index_base, tetlod_array *ids,
+                                              tetlod_array *weights);
+/* Moves any other point field (or the same at a later time) to the result by that stencil: simplified[i] = the mean of
+ * original[ids[i]], the same bytes as if the run had carried it. original: a tuple for each point of the run's input;
+ * simplified: room as for tetlod_fetch_field, as many components (1 to 64), memory of its own. With the context's
+ * threads. Statuses as for tetlod_fetch_stencil. */
+TETLOD_API tetlod_status tetlod_transfer(tetlod_context *context, const tetlod_array *original,
+                                         tetlod_array *simplified);
 /* TETLOD_ERR_STRUCT_SIZE. */
 TETLOD_API tetlod_status tetlod_fetch_report(const tetlod_context *context, tetlod_run_report *out);
 

@@ -39,6 +39,16 @@ void log_to_host(tetlod_context &context, int level, const char *message) {
   if (!returned) context.cancel.store(true, std::memory_order_relaxed);
 }
 
+bool same(const StridedArray &a, const StridedArray &b) {
+  return a.present == b.present && a.type == b.type && a.tuples == b.tuples && a.components == b.components &&
+         a.tuple_stride == b.tuple_stride && a.component_stride == b.component_stride && a.data == b.data;
+}
+
+bool same(const Input &a, const Input &b) {
+  return same(a.xyz[0], b.xyz[0]) && same(a.xyz[1], b.xyz[1]) && same(a.xyz[2], b.xyz[2]) && same(a.tets, b.tets) &&
+         a.index_base == b.index_base && same(a.scalars, b.scalars);
+}
+
 void require_submitted(const StridedArray &array, const char *name) {
   if (!array.present) fail(Status::state, "no %s are submitted", name);
 }
@@ -53,6 +63,11 @@ void require_mesh(const Input &input) {
 void require_submitted(const Input &input) {
   require_mesh(input);
   require_submitted(input.scalars, "scalars");
+}
+
+void require_input_of(const Outcome &outcome, const Input &input) {
+  require_submitted(input);
+  if (!same(outcome.input, input)) fail(Status::state, "the arrays of the last run are not submitted any more");
 }
 
 void begin(tetlod_context &context) {

@@ -71,6 +71,7 @@ void call_with_nothing(Session &session, Bytes &in) {
       tetlod_submit_points_xyz(c, nullptr, nullptr, nullptr),
       tetlod_submit_tets(c, nullptr, 0),
       tetlod_submit_scalars(c, nullptr, nullptr),
+      tetlod_submit_field(c, "f", TETLOD_POINT_FIELD, nullptr),
       tetlod_clear(nullptr),
       tetlod_check(c, bare ? &out.mesh : nullptr),
       tetlod_estimate_memory(c, bare ? &out.bytes : nullptr),
@@ -80,10 +81,17 @@ void call_with_nothing(Session &session, Bytes &in) {
       tetlod_fetch_counts(nullptr, &out.integer, nullptr, nullptr),
   };
   for (const tetlod_status status : statuses) DEMAND(status == TETLOD_ERR_ARGUMENT, "null pointers: %d", status);
-  const tetlod_status later[] = {tetlod_fetch_points(c, array),      tetlod_fetch_tets(c, 0, array),
-                                 tetlod_fetch_boundary(c, 0, array), tetlod_fetch_scalars(c, array),
-                                 tetlod_view_points(c, array),       tetlod_view_tets(c, array),
-                                 tetlod_view_scalars(c, array),      tetlod_fetch_report(c, bare ? &out.run : nullptr)};
+  const tetlod_status later[] = {tetlod_fetch_points(c, array),
+                                 tetlod_fetch_tets(c, 0, array),
+                                 tetlod_fetch_boundary(c, 0, array),
+                                 tetlod_fetch_scalars(c, array),
+                                 tetlod_fetch_field(c, "f", array),
+                                 tetlod_fetch_stencil(c, 0, array, array),
+                                 tetlod_transfer(c, array, array),
+                                 tetlod_view_points(c, array),
+                                 tetlod_view_tets(c, array),
+                                 tetlod_view_scalars(c, array),
+                                 tetlod_fetch_report(c, bare ? &out.run : nullptr)};
   for (const tetlod_status status : later)
     DEMAND(status == TETLOD_ERR_ARGUMENT || (!session.has_result() && status == TETLOD_ERR_STATE),
            "null pointers of a result: %d", status);
@@ -266,6 +274,30 @@ void fetch_result(Session &session, Bytes &in) {
   }
 }
 
+/// Any field that was not there before: constant, so that what it becomes is known.
+void transfer_constant(Session &session, Bytes &in) {
+  const double constant = in.real();
+  const std::size_t points = session.mesh().points.size();
+  const std::size_t points_out = session.has_result() ? session.last().points.size() : 0;
+  std::vector<double> from(points, constant), to(points_out, -5.0);
+  const auto described = [](std::vector<double> &values) {
+    tetlod_array array{};
+    array.struct_size = sizeof array;
+    array.type = TETLOD_FLOAT64;
+    array.tuples = std::int64_t(values.size());
+    array.components = 1;
+    array.data = values.data();
+    return array;
+  };
+  tetlod_array original = described(from), simplified = described(to);
+  const tetlod_status status = tetlod_transfer(session.context(), &original, &simplified);
+  check_documented("tetlod_transfer", status, {TETLOD_ERR_STATE, TETLOD_ERR_ARGUMENT, TETLOD_ERR_MEMORY_LIMIT});
+  for (const double value : to) {
+    const double wanted = status == TETLOD_OK ? constant : -5.0;
+    DEMAND(value == wanted || (std::isnan(value) && !std::isfinite(wanted)), "a constant stays one: %g", value);
+  }
+}
+
 void look_at_result(Session &session, Bytes &) { session.check_kept(); }
 
 void listen(Session &session, Bytes &in) {
@@ -294,6 +326,7 @@ constexpr Step steps[] = {run,
                           count_values,
                           fetch_result,
                           fetch_result,
+                          transfer_constant,
                           forget_input,
                           listen,
                           look_at_result,

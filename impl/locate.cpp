@@ -42,8 +42,7 @@ struct Hit {
 /// once, and is halved where that finds too many points.
 class PointTree {
  public:
-  PointTree(const MeshView &mesh, Span<const Vec3> points, Job &job)
-      : mesh_(mesh), points_(points), tree_(job.memory) {
+  PointTree(const MeshView &mesh, Span<const Vec3> points, Job &job) : mesh_(mesh), points_(points), tree_(job.memory) {
     Array<Box> boxes(&job.memory);
     boxes.reserve(points.size());
     for (const Vec3 &p : points) boxes.push_back(box_at(p));

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstring>
 
+#include "carry_fields.hpp"
 #include "cull_samples.hpp"
 #include "extract_boundary.hpp"
 #include "find_crossing.hpp"
@@ -74,7 +75,7 @@ Budget budget_of(double ratio, const Report &report) {
 class Pipeline {
  public:
   Pipeline(const Input &input, const Options &options, Job &job, Result &result)
-      : input_(input), options_(options), job_(job), mesh_(result.mesh), report_(result.report) {}
+      : input_(input), options_(options), job_(job), result_(result), mesh_(result.mesh), report_(result.report) {}
 
   /// What needs neither decimation nor remeshing.
   void begin() {
@@ -94,6 +95,7 @@ class Pipeline {
       run_to_target(worker);
     }
     finish();
+    carry();
   }
 
  private:
@@ -313,6 +315,11 @@ class Pipeline {
     report_.tets_out = std::int64_t(mesh_.tets.size());
   }
 
+  void carry() {
+    const StageTimer timer(Stage::values, job_, report_);
+    carry_fields(input_, options_, original_, boundary_, job_, result_);
+  }
+
   double known_value(std::size_t origin) const {
     const std::size_t boundary = surface_.points.size();
     return origin < boundary ? surface_.scalars[origin]
@@ -322,6 +329,7 @@ class Pipeline {
   const Input &input_;
   const Options &options_;
   Job &job_;
+  Result &result_;
   TetMesh &mesh_;
   Report &report_;
   Budget budget_;
@@ -367,6 +375,15 @@ std::uint64_t hash_of(const TetMesh &mesh) {
   return hash.value();
 }
 
+/// Of a result, for each of its points.
+double bytes_of_fields(const Input &input) {
+  constexpr double tets_a_point = 6;
+  double bytes = 0;
+  for (const SubmittedField &field : input.fields)
+    bytes += sizeof(double) * field.values.components * (field.association == Association::cell ? tets_a_point : 1);
+  return bytes;
+}
+
 }  // namespace
 
 void run(const Input &input, const Options &options, Worker &worker, Job &job, Result &result) {
@@ -379,15 +396,19 @@ void run(const Input &input, const Options &options, Worker &worker, Job &job, R
 
 std::uint64_t estimate_memory(const Input &input, const Options &options, Job &job) {
   // Measured on real sets with 2 K to 20 K boundary triangles, results of 30 to 250 K tets.
-  constexpr double bytes_a_triangle = 530, bytes_a_result_point = 360;
+  constexpr double bytes_a_triangle = 530, bytes_a_result_point = 360, bytes_a_located_point = 400,
+                   tets_a_result_point = 4;
   job.memory.reset_peak();
   Result result(job.memory);
   Pipeline pipeline(input, options, job, result);
   pipeline.begin();
   const double triangles = double(result.report.boundary_triangles_in);
-  const double points = options.sigma * triangles / 2 + double(result.report.selected_samples);
-  const double later =
-      double(job.memory.in_use()) + std::max(bytes_a_triangle * triangles, bytes_a_result_point * points);
+  const double points = as_published(options)
+                            ? options.sigma * triangles / 2 + double(result.report.selected_samples)
+                            : ratio_of(options) * double(result.report.tets_in) / tets_a_result_point;
+  const double carried = input.fields.empty() ? 0 : bytes_a_located_point + bytes_of_fields(input);
+  const double later = double(job.memory.in_use()) +
+                       std::max({bytes_a_triangle * triangles, bytes_a_result_point * points, carried * points});
   return std::max(std::uint64_t(job.memory.peak()), std::uint64_t(later));
 }
 

@@ -2,11 +2,14 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "decimate_boundary.hpp"
 #include "job.hpp"
 #include "mesh.hpp"
 #include "remesh.hpp"
+#include "stencil.hpp"
 #include "strided.hpp"
 #include "worker.hpp"
 
@@ -44,12 +47,23 @@ struct Options {
   std::int64_t on_nonfinite = policy_error;  ///< repair: ignore points without a finite value together with their tets
 };
 
+/// The numbers are those of the C ABI.
+enum class Association : std::int32_t { point = 0, cell = 1 };
+
+/// A field that rides along: float32 or float64, any number of components.
+struct SubmittedField {
+  std::string name;
+  Association association = Association::point;
+  StridedArray values;
+};
+
 /// The caller's arrays: shapes, types and strides are sound, contents are not looked at yet.
 struct Input {
   std::array<StridedArray, 3> xyz;  ///< one component each
   StridedArray tets;                ///< four components
   std::int32_t index_base = 0;
-  StridedArray scalars;  ///< one component
+  StridedArray scalars;                ///< one component
+  std::vector<SubmittedField> fields;  ///< names are unique; as many tuples as points or tets
 };
 
 /// The rows of the paper's Table 2. Seconds by Stage.
@@ -71,9 +85,21 @@ struct Report {
   double max_error = 0;  ///< of a run with a target: at the original vertices, over the range
 };
 
+/// A field of the result: a tuple a point or a tet.
+struct CarriedField {
+  CarriedField(const SubmittedField &of, Memory &memory)
+      : name(of.name), association(of.association), components(of.values.components), values(&memory) {}
+  std::string name;
+  Association association;
+  int components;
+  Array<double> values;
+};
+
 struct Result {
-  explicit Result(Memory &memory) : mesh(memory) {}
+  explicit Result(Memory &memory) : mesh(memory), stencil(memory) {}
   TetMesh mesh;
+  Stencil stencil;  ///< of the mesh's points, numbered as the caller's; empty until a field needs it
+  std::vector<CarriedField> fields;
   Report report;
 };
 

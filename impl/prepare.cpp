@@ -144,11 +144,15 @@ void drop_and_rename(Span<const std::int32_t> representative, Span<const std::ui
                      Original &original) {
   Array<Tet> kept(&job.memory);
   kept.reserve(original.view.tets.size());
-  for (const Tet &t : original.view.tets) {
+  original.tet_number.reserve(original.view.tets.size());
+  for (std::size_t i = 0; i < original.view.tets.size(); i++) {
+    const Tet &t = original.view.tets[i];
     if (std::any_of(t.begin(), t.end(), [&](std::int32_t v) { return !used[std::size_t(v)]; })) continue;
     Tet renamed = t;
     for (std::int32_t &v : renamed) v = representative[std::size_t(v)];
-    if (!has_repeated_vertex(renamed)) kept.push_back(renamed);
+    if (has_repeated_vertex(renamed)) continue;
+    kept.push_back(renamed);
+    original.tet_number.push_back(std::int32_t(i));
   }
   original.dropped_tets = std::int64_t(original.view.tets.size() - kept.size());
   original.tets = std::move(kept);

@@ -10,11 +10,12 @@ namespace tetlod {
 
 /// The original mesh; the caller's own arrays where their layout allows, copies where not.
 struct Original {
-  explicit Original(Memory &memory) : points(&memory), scalars(&memory), tets(&memory) {}
+  explicit Original(Memory &memory) : points(&memory), scalars(&memory), tets(&memory), tet_number(&memory) {}
   MeshView view;
   Array<Vec3> points;
   Array<double> scalars;
   Array<Tet> tets;
+  Array<std::int32_t> tet_number;     ///< of each tet among the submitted ones; empty: none was dropped
   std::int64_t merged_points = 0;     ///< coincident points that became one
   std::int64_t nonfinite_points = 0;  ///< without a finite value, ignored with their tets
   std::int64_t dropped_tets = 0;      ///< with such a point, or with a repeated vertex, as submitted or after merging

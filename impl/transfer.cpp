@@ -50,12 +50,7 @@ void move_mean(const Stencil &stencil, std::size_t i, const StridedArray &from, 
 void prefetch(const Stencil &stencil, std::size_t i, const StridedArray &from) {
   constexpr std::size_t ahead = 12;
   if (i + ahead >= stencil.ids.size()) return;
-  const std::int64_t last = (from.components - 1) * from.component_stride;
-  for (std::int32_t id : stencil.ids[i + ahead]) {
-    const unsigned char *const tuple = from.data + id * from.tuple_stride;
-    __builtin_prefetch(tuple);
-    __builtin_prefetch(tuple + last);
-  }
+  for (std::int32_t id : stencil.ids[i + ahead]) __builtin_prefetch(from.data + id * from.tuple_stride);
 }
 
 template <class From, class To>

@@ -1,0 +1,134 @@
+// The fields that ride along: submitting them, fetching what became of them, and moving any other afterwards.
+#include <algorithm>
+#include <cinttypes>
+
+#include "arguments.hpp"
+#include "carry_fields.hpp"
+#include "context.hpp"
+#include "transfer.hpp"
+#include "work.hpp"
+#include "write_array.hpp"
+
+namespace tetlod::capi {
+
+namespace {
+
+static_assert(std::int32_t(Association::point) == TETLOD_POINT_FIELD, "");
+static_assert(std::int32_t(Association::cell) == TETLOD_CELL_FIELD, "");
+
+void require_name(const char *name) {
+  require_pointer(name, "name");
+  if (!*name) fail(Status::argument, "name is empty");
+}
+
+void require_association(std::int32_t association) {
+  if (association != TETLOD_POINT_FIELD && association != TETLOD_CELL_FIELD)
+    fail(Status::argument, "association %d is neither TETLOD_POINT_FIELD (0) nor TETLOD_CELL_FIELD (1)", association);
+}
+
+/// How messages speak of a field.
+std::string field_text(const char *name) { return text("field %.100s", name); }
+
+/// The field of that name, or where a new one goes.
+SubmittedField &slot_of(const std::string &name, std::vector<SubmittedField> &fields) {
+  const auto found =
+      std::find_if(fields.begin(), fields.end(), [&](const SubmittedField &field) { return field.name == name; });
+  return found != fields.end() ? *found : fields.emplace_back();
+}
+
+std::string names_of(const std::vector<CarriedField> &fields) {
+  std::string names;
+  for (const CarriedField &field : fields) names += (names.empty() ? "" : ", ") + field.name;
+  return names.empty() ? "none" : names;
+}
+
+const CarriedField &carried_field(const Result &result, const char *name) {
+  for (const CarriedField &field : result.fields)
+    if (field.name == name) return field;
+  fail(Status::argument, "the last run carried no field %.100s, but %.400s", name, names_of(result.fields).c_str());
+}
+
+/// Of the last result; found now, if it has not been needed before.
+const Stencil &stencil_of(tetlod_context &context) {
+  Outcome &outcome = last_outcome(context);
+  if (outcome.result.stencil.ids.empty()) {
+    require_input_of(outcome, context.input);
+    begin(context);
+    Job job(context.memory, context.parallel);
+    connect_log(job, context);
+    find_stencil(context.input, outcome.options, job, outcome.result);
+  }
+  return outcome.result.stencil;
+}
+
+void require_same_components(const StridedArray &original, const StridedArray &simplified) {
+  if (original.components != simplified.components)
+    fail(Status::argument, "original has %d components, simplified %d", original.components, simplified.components);
+}
+
+}  // namespace
+
+}  // namespace tetlod::capi
+
+using namespace tetlod;
+using namespace tetlod::capi;
+
+tetlod_status tetlod_submit_field(tetlod_context *handle, const char *name, int32_t association,
+                                  const tetlod_array *values) {
+  return entry(handle, [&](tetlod_context &context) {
+    require_name(name);
+    require_association(association);
+    const std::string called = field_text(name);
+    SubmittedField field;
+    field.values = checked_source(values, {called.c_str(), Shape::any_number, Shape::reals});
+    field.association = Association(association);
+    field.name = name;
+    std::vector<SubmittedField> &fields = context.input.fields;
+    fields.reserve(fields.size() + 1);
+    slot_of(field.name, fields) = std::move(field);
+  });
+}
+
+tetlod_status tetlod_fetch_field(const tetlod_context *handle, const char *name, tetlod_array *dst) {
+  return entry(handle, [&](const tetlod_context &context) {
+    require_name(name);
+    const Result &result = last_outcome(context).result;
+    const CarriedField &field = carried_field(result, name);
+    const bool of_cells = field.association == Association::cell;
+    const std::size_t tuples = of_cells ? result.mesh.tets.size() : result.mesh.points.size();
+    const std::string called = field_text(name);
+    const StridedArray to = checked_destination(dst, {called.c_str(), field.components, Shape::reals}, tuples);
+    const auto components = std::size_t(field.components);
+    write(to, tuples, [&](std::size_t i, int c) { return field.values[i * components + std::size_t(c)]; });
+  });
+}
+
+tetlod_status tetlod_fetch_stencil(const tetlod_context *handle, int32_t index_base, tetlod_array *ids,
+                                   tetlod_array *weights) {
+  return entry(handle, [&](tetlod_context &context) {
+    require_index_base(index_base);
+    const std::size_t points = last_outcome(context).result.mesh.points.size();
+    const StridedArray to_ids = checked_destination(ids, {"ids", 4, Shape::integers}, points);
+    const StridedArray to_weights = checked_destination(weights, {"weights", 4, Shape::reals}, points);
+    const Stencil &stencil = stencil_of(context);
+    write(to_ids, points, [&](std::size_t i, int c) { return stencil.ids[i][std::size_t(c)] + index_base; });
+    write(to_weights, points, [&](std::size_t i, int c) { return stencil.weights[i][std::size_t(c)]; });
+  });
+}
+
+tetlod_status tetlod_transfer(tetlod_context *handle, const tetlod_array *original, tetlod_array *simplified) {
+  return entry(handle, [&](tetlod_context &context) {
+    const Result &result = last_outcome(context).result;
+    const StridedArray from = checked_source(original, {"original", Shape::any_number, Shape::reals});
+    const StridedArray to =
+        checked_destination(simplified, {"simplified", Shape::any_number, Shape::reals}, result.mesh.points.size());
+    require_same_components(from, to);
+    if (from.tuples != result.report.points_in)
+      fail(Status::argument, "original: %" PRId64 " tuples, the original mesh has %" PRId64 " points", from.tuples,
+           result.report.points_in);
+    const Stencil &stencil = stencil_of(context);
+    begin(context);
+    Job job(context.memory, context.parallel);  // not one that can be cancelled: half a field is none
+    transfer(stencil, from, to, job);
+  });
+}

@@ -1,0 +1,93 @@
+#include "carry_fields.hpp"
+
+#include <algorithm>
+
+#include "geometry.hpp"
+#include "locate.hpp"
+#include "transfer.hpp"
+
+namespace tetlod {
+
+namespace {
+
+constexpr std::size_t block = 1 << 13;
+
+bool any_of_association(const Input &input, Association association) {
+  return std::any_of(input.fields.begin(), input.fields.end(),
+                     [&](const SubmittedField &field) { return field.association == association; });
+}
+
+/// The result's points in the original's scale.
+Span<const Vec3> scaled_points(const Original &original, const TetMesh &mesh, Array<Vec3> &copy) {
+  if (original.exponent == 0) return mesh.points;
+  copy.reserve(mesh.points.size());
+  for (const Vec3 &p : mesh.points) copy.push_back(times_power_of_two(p, -original.exponent));
+  return copy;
+}
+
+Array<Vec3> find_centroids(Span<const Vec3> points, Span<const Tet> tets, Job &job) {
+  Array<Vec3> centroids(tets.size(), Vec3(0), &job.memory);
+  job.parallel.for_blocks(tets.size(), block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; t++) {
+      for (std::int32_t v : tets[t]) centroids[t] += points[std::size_t(v)];
+      centroids[t] *= 0.25;
+    }
+  });
+  return centroids;
+}
+
+/// The submitted tet that each tet of the result takes its values from.
+Array<std::int32_t> find_sources(const Options &options, const Original &original, const Boundary &boundary,
+                                 Span<const Vec3> centroids, Job &job) {
+  Array<Place> places(&job.memory);
+  locate(original.view, boundary.triangles, centroids, options.tet_leaf, job, places);
+  Array<std::int32_t> sources(&job.memory);
+  sources.reserve(places.size());
+  for (const Place &place : places) {
+    const std::int32_t tet = place.tet >= 0 ? place.tet : boundary.tet_of[std::size_t(place.triangle)];
+    sources.push_back(original.tet_number.empty() ? tet : original.tet_number[std::size_t(tet)]);
+  }
+  return sources;
+}
+
+template <class Way>
+void carry_along(const Way &way, std::size_t tuples, const SubmittedField &field, Job &job, Result &result) {
+  CarriedField &carried = result.fields.emplace_back(field, job.memory);
+  carried.values.resize(tuples * std::size_t(carried.components));
+  transfer(way, field.values, packed_reals(carried.values.data(), tuples, carried.components), job);
+}
+
+}  // namespace
+
+void carry_fields(const Input &input, const Options &options, const Original &original, const Boundary &boundary,
+                  Job &job, Result &result) {
+  if (input.fields.empty()) return;
+  Array<Vec3> copy(&job.memory);
+  const Span<const Vec3> points = scaled_points(original, result.mesh, copy);
+  Array<std::int32_t> sources(&job.memory);
+  if (any_of_association(input, Association::point))
+    find_stencils(original.view, boundary.triangles, points, options.tet_leaf, job, result.stencil);
+  if (any_of_association(input, Association::cell))
+    sources = find_sources(options, original, boundary, find_centroids(points, result.mesh.tets, job), job);
+  for (const SubmittedField &field : input.fields) {
+    if (field.association == Association::point)
+      carry_along(result.stencil, result.mesh.points.size(), field, job, result);
+    else
+      carry_along(Span<const std::int32_t>(sources), result.mesh.tets.size(), field, job, result);
+  }
+}
+
+void find_stencil(const Input &input, const Options &options, Job &job, Result &result) {
+  if (!result.stencil.ids.empty()) return;
+  Original original(job.memory);
+  prepare_original(input, options, job, original);
+  Boundary boundary(job.memory);
+  extract_boundary(original.view, job, boundary);
+  Array<Vec3> copy(&job.memory);
+  Stencil stencil(job.memory);
+  find_stencils(original.view, boundary.triangles, scaled_points(original, result.mesh, copy), options.tet_leaf, job,
+                stencil);
+  result.stencil = std::move(stencil);
+}
+
+}  // namespace tetlod

@@ -1,0 +1,19 @@
+// 3.5  The fields that ride along, on the simplified mesh.
+#pragma once
+#include "extract_boundary.hpp"
+#include "job.hpp"
+#include "pipeline.hpp"
+#include "prepare.hpp"
+
+namespace tetlod {
+
+/// Writes result.fields, and result.stencil when there is a field of points. A tet of the result takes the value of
+/// the original tet that holds its centroid, or whose face is the boundary's nearest to it: values of cells are often
+/// numbers of regions and materials, of which a mean means nothing. Without fields nothing is done.
+void carry_fields(const Input &input, const Options &options, const Original &original, const Boundary &boundary,
+                  Job &job, Result &result);
+
+/// Writes result.stencil, where it is not there yet, from the input of the run, which is read again.
+void find_stencil(const Input &input, const Options &options, Job &job, Result &result);
+
+}  // namespace tetlod

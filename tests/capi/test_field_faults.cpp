@@ -1,0 +1,87 @@
+// Fields that ride along, where memory ends and threads differ.
+#include "fields_fixture.hpp"
+
+namespace tetlod_test {
+namespace {
+
+TEST_F(Fields, EveryHookedAllocation) {
+  const auto field = field_of(cube, 2, bent);
+  std::vector<double> cells(tets(), 4);
+  ASSERT_EQ(carry("bent", field, 2), TETLOD_OK);
+  ASSERT_EQ(carry("cells", cells, 1, TETLOD_CELL_FIELD), TETLOD_OK);
+  run();
+  const auto kept = fetch("bent", 2, points_out());
+  const std::size_t before = allocator.in_use();
+  bool failed = true;
+  for (long n = 0; failed && n < 100000; n++) {
+    allocator.fail_after(n);
+    const tetlod_status status = tetlod_run(context.get());
+    failed = allocator.failed();
+    allocator.forget_failure();
+    ASSERT_EQ(status, failed ? TETLOD_ERR_MEMORY : TETLOD_OK) << n << ": " << message_of(context.get());
+    ASSERT_EQ(allocator.in_use(), before) << n;
+    ASSERT_EQ(fetch("bent", 2, points_out()), kept) << n;
+  }
+}
+
+TEST_F(Fields, EveryHookedAllocationOfTransfer) {
+  const auto field = field_of(cube, 1, bent);
+  run();
+  const std::size_t before = allocator.in_use();
+  std::vector<double> room(points_out(), -99);
+  const tetlod_array from = array_of(TETLOD_FLOAT64, points(), 1, field.data());
+  tetlod_array to = array_of(TETLOD_FLOAT64, points_out(), 1, room.data());
+  bool failed = true;
+  long n = 0;
+  for (; failed && n < 100000; n++) {
+    allocator.fail_after(n);
+    const tetlod_status status = tetlod_transfer(context.get(), &from, &to);
+    failed = allocator.failed();
+    allocator.forget_failure();
+    ASSERT_EQ(status, failed ? TETLOD_ERR_MEMORY : TETLOD_OK) << n << ": " << message_of(context.get());
+    ASSERT_EQ(room == std::vector<double>(room.size(), -99), failed) << n;
+    if (failed) {
+      ASSERT_EQ(allocator.in_use(), before) << n;
+    }
+  }
+  EXPECT_GT(n, 5);
+}
+
+/// The estimate counts what rides along, and a limit below it is met by a status.
+TEST_F(Fields, MemoryIsCounted) {
+  const auto field = field_of(cube, 64, bent);
+  std::uint64_t bare = 0, laden = 0;
+  ASSERT_EQ(tetlod_estimate_memory(context.get(), &bare), TETLOD_OK);
+  for (const char *name : {"a", "b", "c", "d"}) ASSERT_EQ(carry(name, field, 64), TETLOD_OK);
+  ASSERT_EQ(tetlod_estimate_memory(context.get(), &laden), TETLOD_OK);
+  EXPECT_GT(laden, bare);
+  run();
+  tetlod_run_report report{};
+  report.struct_size = sizeof report;
+  ASSERT_EQ(tetlod_fetch_report(context.get(), &report), TETLOD_OK);
+  EXPECT_GE(report.peak_bytes, 4 * 64 * 8 * points_out());
+  tetlod_config config = default_config();
+  config.memory_limit = report.peak_bytes - 1;
+  Context poor = make_context(config);
+  context.swap(poor);
+  SetUp();
+  for (const char *name : {"a", "b", "c", "d"}) ASSERT_EQ(carry(name, field, 64), TETLOD_OK);
+  EXPECT_EQ(tetlod_run(context.get()), TETLOD_ERR_MEMORY_LIMIT);
+}
+
+TEST_F(Fields, ThreadsGiveTheSameBytes) {
+  const auto field = field_of(cube, 3, bent);
+  std::vector<double> cells(tets());
+  for (std::size_t t = 0; t < tets(); t++) cells[t] = double(t);
+  ASSERT_EQ(carry("bent", field, 3), TETLOD_OK);
+  ASSERT_EQ(carry("cells", cells, 1, TETLOD_CELL_FIELD), TETLOD_OK);
+  run();
+  const auto points_one = fetch("bent", 3, points_out()), cells_one = fetch("cells", 1, tets_out());
+  ASSERT_EQ(tetlod_set_int(context.get(), TETLOD_OPT_THREADS, 2), TETLOD_OK);
+  run();
+  EXPECT_EQ(fetch("bent", 3, points_out()), points_one);
+  EXPECT_EQ(fetch("cells", 1, tets_out()), cells_one);
+}
+
+}  // namespace
+}  // namespace tetlod_test
