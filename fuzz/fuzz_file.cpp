@@ -251,7 +251,7 @@ void read(const std::string &path) {
   vtkDataArray *const field = cli::steering_field(*grid, {});
   const auto values = cli::as_reals(field);
   const auto points = cli::as_reals(grid->GetPoints()->GetData());
-  const auto corners = cli::tets_of(*grid, notes);
+  const auto corners = cli::tets_of(*grid, notes).corners;
   messages->check(path, notes);
   Session session({});
   submit(session, points, corners, values);

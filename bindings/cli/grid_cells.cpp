@@ -1,6 +1,7 @@
 #include "grid_cells.hpp"
 
 #include <vtkCellArray.h>
+#include <vtkCellData.h>
 #include <vtkCellType.h>
 #include <vtkCellTypes.h>
 #include <vtkDataSetTriangleFilter.h>
@@ -103,7 +104,7 @@ void check_cell(vtkIdType cell, vtkIdType size, const vtkIdType *ids, vtkIdType 
                 ", which the mesh does not have");
 }
 
-// Calls use(type, ids) for each cell with a volume.
+// Calls use(type, ids, cell) for each cell with a volume.
 template <class Use>
 void for_each_solid(vtkUnstructuredGrid &grid, int corners_or_more, const Use &use) {
   for (vtkIdType c = 0; c < grid.GetNumberOfCells(); c++) {
@@ -113,7 +114,7 @@ void for_each_solid(vtkUnstructuredGrid &grid, int corners_or_more, const Use &u
     const vtkIdType *ids = nullptr;
     grid.GetCells()->GetCellAtId(c, size, ids);
     check_cell(c, size, ids, std::max(corners_or_more, solids().at(type).corners), grid.GetNumberOfPoints());
-    use(type, ids);
+    use(type, ids, c);
   }
 }
 
@@ -142,21 +143,30 @@ void cut_quadratic_tet(vtkUnstructuredGrid &grid, const vtkIdType *ids, vtkTypeI
   for (int k = 0; k < 4; k++) add(diagonal[best][0], diagonal[best][1], ring[best][k], ring[best][(k + 1) % 4]);
 }
 
-vtkSmartPointer<vtkDataArray> cut_quadratic_tets(vtkUnstructuredGrid &grid) {
-  auto tets = vtkSmartPointer<vtkTypeInt64Array>::New();
-  for_each_solid(grid, 10, [&](int, const vtkIdType *ids) { cut_quadratic_tet(grid, ids, *tets); });
-  return tets;
+Tets cut_quadratic_tets(vtkUnstructuredGrid &grid) {
+  vtkNew<vtkTypeInt64Array> corners, cells;
+  for_each_solid(grid, 10, [&](int, const vtkIdType *ids, vtkIdType cell) {
+    cut_quadratic_tet(grid, ids, *corners);
+    while (cells->GetNumberOfValues() < corners->GetNumberOfValues() / 4) cells->InsertNextValue(cell);
+  });
+  return {corners, cells};
 }
 
-// The solids by their corners, as linear cells over the same points.
+constexpr char kCellNumbers[] = "tetlod cell numbers";
+
+// The solids by their corners, as linear cells over the same points, with their numbers as cell data.
 vtkSmartPointer<vtkUnstructuredGrid> corner_grid(vtkUnstructuredGrid &grid) {
   auto linear = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  vtkNew<vtkTypeInt64Array> cells;
+  cells->SetName(kCellNumbers);
   linear->SetPoints(grid.GetPoints());
   linear->Allocate(grid.GetNumberOfCells());
-  for_each_solid(grid, 0, [&](int type, const vtkIdType *ids) {
+  for_each_solid(grid, 0, [&](int type, const vtkIdType *ids, vtkIdType cell) {
     const Solid &solid = solids().at(type);
     linear->InsertNextCell(solid.linear, solid.corners, ids);
+    cells->InsertNextValue(cell);
   });
+  linear->GetCellData()->AddArray(cells);
   return linear;
 }
 
@@ -165,20 +175,23 @@ bool holds_tets_alone(vtkUnstructuredGrid &grid) {
   return counts.size() == 1 && counts.begin()->first == VTK_TETRA && grid.GetCells()->IsHomogeneous() == 4;
 }
 
+vtkDataArray *cell_numbers(vtkUnstructuredGrid &grid) { return grid.GetCellData()->GetArray(kCellNumbers); }
+
 // Diagonals of quadrilaterals follow the order of the point numbers, so that neighbours agree.
-vtkSmartPointer<vtkDataArray> split(vtkSmartPointer<vtkUnstructuredGrid> grid) {
-  if (holds_tets_alone(*grid)) return grid->GetCells()->GetConnectivityArray();
+Tets split(vtkSmartPointer<vtkUnstructuredGrid> grid) {
+  if (holds_tets_alone(*grid)) return {grid->GetCells()->GetConnectivityArray(), cell_numbers(*grid)};
   vtkNew<vtkDataSetTriangleFilter> filter;
   filter->TetrahedraOnlyOn();
   filter->SetInputData(grid);
   filter->Update();
-  return filter->GetOutput()->GetCells()->GetConnectivityArray();
+  vtkUnstructuredGrid &tets = *filter->GetOutput();
+  return {tets.GetCells()->GetConnectivityArray(), cell_numbers(tets)};
 }
 
 }  // namespace
 
-vtkSmartPointer<vtkDataArray> tets_of(vtkUnstructuredGrid &grid, std::vector<std::string> &notes) {
-  if (holds_tets_alone(grid)) return grid.GetCells()->GetConnectivityArray();
+Tets tets_of(vtkUnstructuredGrid &grid, std::vector<std::string> &notes) {
+  if (holds_tets_alone(grid)) return {grid.GetCells()->GetConnectivityArray(), nullptr};
   const Counts types = solid_types(count_types(grid), notes);
   if (types.size() == 1 && types.count(VTK_QUADRATIC_TETRA) == 1) return cut_quadratic_tets(grid);
   note_curved(types, notes);

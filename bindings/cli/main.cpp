@@ -33,7 +33,9 @@ TetMesh read_mesh(const Arguments &arguments, VtkMessages &messages, Notes &note
   mesh.field = field->GetName() != nullptr ? field->GetName() : "scalars";
   mesh.values = as_reals(field);
   mesh.points = as_reals(grid->GetPoints()->GetData());
-  mesh.corners = tets_of(*grid, notes);
+  const Tets tets = tets_of(*grid, notes);
+  mesh.corners = tets.corners;
+  mesh.others = carried_arrays(*grid, field, tets, notes);
   messages.check(arguments.input, notes);
   return mesh;
 }

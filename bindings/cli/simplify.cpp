@@ -25,6 +25,10 @@ void submit(tetlod_context *context, const TetMesh &mesh) {
   check(tetlod_submit_points(context, &points), context);
   check(tetlod_submit_tets(context, &corners, 0), context);
   check(tetlod_submit_scalars(context, mesh.field.c_str(), &values), context);
+  for (const CarriedArray &other : mesh.others) {
+    const tetlod_array array = borrowed(other.reals, other.reals->GetNumberOfComponents());
+    check(tetlod_submit_field(context, other.key().c_str(), other.association, &array), context);
+  }
 }
 
 }  // namespace

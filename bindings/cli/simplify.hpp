@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "arguments.hpp"
+#include "carried_arrays.hpp"
 #include "progress_bar.hpp"
 #include "tetlod.h"
 
@@ -18,6 +19,7 @@ namespace cli {
 struct TetMesh {
   vtkSmartPointer<vtkDataArray> points, corners, values;
   std::string field;
+  std::vector<CarriedArray> others;
 };
 
 struct DestroyContext {

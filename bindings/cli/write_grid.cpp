@@ -1,6 +1,7 @@
 #include "write_grid.hpp"
 
 #include <vtkCellArray.h>
+#include <vtkCellData.h>
 #include <vtkCellType.h>
 #include <vtkDoubleArray.h>
 #include <vtkNew.h>
@@ -82,6 +83,12 @@ void write_grid(const std::string &path, const tetlod_context *context, const Te
   grid->SetPoints(points);
   grid->SetCells(VTK_TETRA, tets_of(context));
   grid->GetPointData()->SetScalars(values);
+  for (const CarriedArray &other : original.others) {
+    const bool of_cells = other.association == TETLOD_CELL_FIELD;
+    vtkDataSetAttributes *data =
+        of_cells ? static_cast<vtkDataSetAttributes *>(grid->GetCellData()) : grid->GetPointData();
+    data->AddArray(fetch_carried(context, other, of_cells ? grid->GetNumberOfCells() : grid->GetNumberOfPoints()));
+  }
   const bool written = file_ending(path) == ".vtk" ? write_legacy(path, grid) : write_xml(path, grid);
   messages.check(path, notes);
   if (!written) throw Failure(path + ": VTK could not write it");

@@ -95,6 +95,46 @@ TEST_F(Files, ResultsAreFilesOfTheSameKind) {
   }
 }
 
+// The line of an XML file that describes an array.
+std::string array_tag(const std::string &text, const std::string &name) {
+  const std::size_t at = text.find("Name=\"" + name + "\"");
+  if (at == std::string::npos) return "";
+  const std::size_t begin = text.rfind('<', at);
+  return text.substr(begin, text.find('>', at) - begin);
+}
+
+void expect_in(const std::string &text, const std::string &part) {
+  EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' is not in: " << text;
+}
+
+// Whatever the cells are, each tet takes its cell's value; types stay.
+TEST_F(Files, AllOtherArraysRideAlong) {
+  for (Kind kind : {Kind::tet, Kind::hexahedron, Kind::quadratic_tet, Kind::wedge}) {
+    Cube cube;
+    cube.kind = kind;
+    cube.real = "float";
+    expect_linear_field_kept(run_on(cube));
+    const std::string out = contents_of(folder / "out.vtu");
+    for (const char *part : {"type=\"Float32\"", "RangeMin=\"0\"", "RangeMax=\"1\""})
+      expect_in(array_tag(out, "other"), part);
+    for (const char *part : {"type=\"Float32\"", "NumberOfComponents=\"3\""}) expect_in(array_tag(out, "flow"), part);
+    for (const char *part : {"type=\"Int32\"", "RangeMin=\"5\"", "RangeMax=\"6\""})
+      expect_in(array_tag(out, "part"), part);
+    EXPECT_LT(out.find("Name=\"flow\""), out.find("<CellData"));
+    EXPECT_GT(out.find("Name=\"part\""), out.find("<CellData"));
+  }
+}
+
+// Carried by the first run and steering the second, x is still x.
+TEST_F(Files, ACarriedArrayIsAFieldLikeAnyOther) {
+  write_cube(folder / "in.vtk", {});
+  for (const char *name : {"out.vtu", "out.vtk"}) {
+    run(folder / "in.vtk", folder / name);
+    const Json report = run(folder / name, folder / "again.vtu", {"--field", "other"});
+    expect_linear_field_kept(report);
+  }
+}
+
 TEST_F(Files, TheFirstScalarsAreTheDefault) {
   EXPECT_EQ(run_on({})["field"], "heat");
   EXPECT_EQ(run(folder / "in.vtk", folder / "out.vtu", {"--field", "other"})["field"], "other");

@@ -19,7 +19,7 @@ struct Cube {
 };
 
 // Point data: the active scalars "heat" = x + 2 y + 3 z, further scalars "other" = x, vectors "flow". Cell data:
-// "part".
+// "part", 5 or 6 in turns.
 void write_cube(const std::string &path, const Cube &cube);
 
 }  // namespace cli_test

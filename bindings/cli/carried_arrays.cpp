@@ -1,0 +1,87 @@
+#include "carried_arrays.hpp"
+
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+
+#include "arrays.hpp"
+#include "simplify.hpp"
+
+namespace cli {
+namespace {
+
+constexpr int kMostComponents = 64;
+
+// Why an array of the file is not carried; empty: it is.
+std::string why_left_out(vtkAbstractArray &any) {
+  auto *array = vtkDataArray::SafeDownCast(&any);
+  if (array == nullptr) return "is not one of numbers";
+  if (array->GetName() == nullptr || *array->GetName() == 0) return "has no name";
+  const int components = array->GetNumberOfComponents();
+  if (components < 1 || components > kMostComponents) return "has " + std::to_string(components) + " components";
+  return "";
+}
+
+// A tuple a tet of an array with a tuple a cell.
+vtkSmartPointer<vtkDataArray> a_tuple_a_tet(vtkDataArray *array, const Tets &tets) {
+  if (tets.cells == nullptr) return array;
+  auto spread = vtk::TakeSmartPointer(array->NewInstance());
+  spread->SetNumberOfComponents(array->GetNumberOfComponents());
+  spread->SetNumberOfTuples(tets.cells->GetNumberOfValues());
+  for (vtkIdType t = 0; t < tets.cells->GetNumberOfValues(); t++)
+    spread->SetTuple(t, vtkIdType(tets.cells->GetComponent(t, 0)), array);
+  return spread;
+}
+
+bool is_real(int type) { return type == VTK_FLOAT || type == VTK_DOUBLE; }
+
+CarriedArray carried(vtkDataArray *array, int32_t association, const Tets &tets) {
+  const bool of_cells = association == TETLOD_CELL_FIELD;
+  const int type = array->GetDataType();
+  return {array->GetName(), association, of_cells || is_real(type) ? type : VTK_DOUBLE,
+          as_reals(of_cells ? a_tuple_a_tet(array, tets).Get() : array)};
+}
+
+}  // namespace
+
+std::vector<CarriedArray> carried_arrays(vtkUnstructuredGrid &grid, vtkDataArray *steering, const Tets &tets,
+                                         std::vector<std::string> &notes) {
+  std::vector<CarriedArray> all;
+  const auto add_all = [&](vtkDataSetAttributes &data, int32_t association) {
+    for (int i = 0; i < data.GetNumberOfArrays(); i++) {
+      vtkAbstractArray *array = data.GetAbstractArray(i);
+      const std::string name = array->GetName() != nullptr ? array->GetName() : "";
+      if (data.GetArray(i) == steering || name == vtkDataSetAttributes::GhostArrayName()) continue;
+      const std::string reason = why_left_out(*array);
+      if (reason.empty())
+        all.push_back(carried(data.GetArray(i), association, tets));
+      else
+        notes.push_back("array '" + name + "' is left out: it " + reason);
+    }
+  };
+  add_all(*grid.GetPointData(), TETLOD_POINT_FIELD);
+  add_all(*grid.GetCellData(), TETLOD_CELL_FIELD);
+  return all;
+}
+
+vtkSmartPointer<vtkDataArray> fetch_carried(const tetlod_context *context, const CarriedArray &array, int64_t tuples) {
+  const int components = array.reals->GetNumberOfComponents();
+  const auto made = [&](int type) {
+    auto values = vtk::TakeSmartPointer(vtkDataArray::CreateDataArray(type));
+    values->SetName(array.name.c_str());
+    values->SetNumberOfComponents(components);
+    return values;
+  };
+  auto fetched = made(is_real(array.type) ? array.type : VTK_DOUBLE);
+  fetched->SetNumberOfTuples(tuples);
+  tetlod_array room = borrowed(fetched, components);
+  check(tetlod_fetch_field(context, array.key().c_str(), &room), context);
+  if (is_real(array.type)) return fetched;
+  auto integers = made(array.type);
+  integers->DeepCopy(fetched);
+  integers->SetName(array.name.c_str());
+  return integers;
+}
+
+}  // namespace cli
