@@ -8,6 +8,8 @@ namespace tetlod::capi {
 
 namespace {
 
+static_assert(keep_vertex == TETLOD_FLAG_KEEP && lock_vertex == TETLOD_FLAG_LOCK, "");
+
 /// Component c of an array, as an array of one component.
 StridedArray component(const StridedArray &array, int c) {
   StridedArray one = array;
@@ -61,6 +63,12 @@ tetlod_status tetlod_submit_scalars(tetlod_context *handle, const char *name, co
     std::string copy(name ? name : "");
     context.input.scalars = scalars;
     context.scalars_name.swap(copy);
+  });
+}
+
+tetlod_status tetlod_submit_point_flags(tetlod_context *handle, const tetlod_array *flags) {
+  return entry(handle, [&](tetlod_context &context) {
+    context.input.flags = checked_source(flags, {"flags", 1, Shape::bytes});
   });
 }
 

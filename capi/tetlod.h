@@ -348,6 +348,17 @@ enum {
  * many tuples as points or tets, which tetlod_run looks at. Since 0.1, as all of these. */
 TETLOD_API tetlod_status tetlod_submit_field(tetlod_context *context, const char *name, int32_t association,
                                              const tetlod_array *values);
+enum {
+  TETLOD_FLAG_KEEP = 1, /* the vertex survives, with its place and value */
+  TETLOD_FLAG_LOCK = 2  /* the same, for an interface of partitions: triangles and edges of the boundary between locked
+                           vertices stay as well, so that the other side still fits */
+};
+/* Flags of points, any sum of the above: 1 component, uint8, as many as points; 0: simplify freely. A flagged vertex of
+ * the boundary is never collapsed or moved, nor are edges between two such (today also with KEEP alone), and fewer edges
+ * than sigma asks for may go; a flagged vertex inside is always a sample, however near the boundary. An inner one is
+ * lost, though, when it lies outside of the decimated boundary or TetGen finds no mesh with it. Of points that are merged
+ * all flags count. tetlod_run returns TETLOD_ERR_ARGUMENT for other bits and for another count. */
+TETLOD_API tetlod_status tetlod_submit_point_flags(tetlod_context *context, const tetlod_array *flags);
 /* Forgets what was submitted (the arrays may go), keeps options and the last result. */
 TETLOD_API tetlod_status tetlod_clear(tetlod_context *context);
 

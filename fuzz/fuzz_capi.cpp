@@ -72,6 +72,7 @@ void call_with_nothing(Session &session, Bytes &in) {
       tetlod_submit_tets(c, nullptr, 0),
       tetlod_submit_scalars(c, nullptr, nullptr),
       tetlod_submit_field(c, "f", TETLOD_POINT_FIELD, nullptr),
+      tetlod_submit_point_flags(c, nullptr),
       tetlod_clear(nullptr),
       tetlod_check(c, bare ? &out.mesh : nullptr),
       tetlod_estimate_memory(c, bare ? &out.bytes : nullptr),

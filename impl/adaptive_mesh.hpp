@@ -50,6 +50,7 @@ class AdaptiveMesh {
       : points(&memory),
         values(&memory),
         fixed(&memory),
+        kept(&memory),
         tets(&memory),
         neighbours(&memory),
         error(&memory),
@@ -64,6 +65,7 @@ class AdaptiveMesh {
   Array<Vec3> points;
   Array<double> values;
   Array<std::uint8_t> fixed;  ///< vertices of the boundary: 1, or `touching`
+  Array<std::uint8_t> kept;   ///< vertices that keep place and value
   Array<Tet> tets;            ///< every one positive; the first corner of a free slot is -1
   Array<Tet> neighbours;      ///< across the face opposite each corner; -1 on the boundary
   Array<double> error;        ///< of each tet: the sum of squares at its probes

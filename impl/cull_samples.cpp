@@ -31,12 +31,16 @@ Verdict judge(const Vec3 &p, const Surface &surface, const SurfaceDistance &dist
 }  // namespace
 
 CullReport cull_samples(Span<const Vec3> points, const Surface &surface, const SurfaceTopology &topology,
-                        double min_distance, std::int64_t leaf, Job &job, Array<std::int32_t> &samples) {
+                        double min_distance, std::int64_t leaf, Job &job, Array<std::int32_t> &samples,
+                        Span<const std::uint8_t> may_be_near) {
   const SurfaceDistance distance(surface, topology, leaf, job);
   Array<Verdict> verdicts(samples.size(), Verdict::keep, &job.memory);
   job.parallel.for_blocks(samples.size(), 64, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; i++)
-      verdicts[i] = judge(points[std::size_t(samples[i])], surface, distance, min_distance);
+    for (std::size_t i = begin; i < end; i++) {
+      const auto v = std::size_t(samples[i]);
+      verdicts[i] = judge(points[v], surface, distance, min_distance);
+      if (verdicts[i] == Verdict::too_near && !may_be_near.empty() && may_be_near[v]) verdicts[i] = Verdict::keep;
+    }
     job.poll(double(end) / double(samples.size()));
   });
   CullReport report;

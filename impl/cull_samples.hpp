@@ -14,8 +14,10 @@ struct CullReport {
 
 /// Keeps, in order, the samples (numbers of points) that are inside the surface and at least min_distance from it,
 /// and never nearer than a small part of the nearest triangle's height, which TetGen needs. `topology` is the
-/// surface's; at most `leaf` triangles are in a leaf of the k-d tree.
+/// surface's; at most `leaf` triangles are in a leaf of the k-d tree. Points with may_be_near[v] != 0 (empty: none) may
+/// be as near as they are.
 CullReport cull_samples(Span<const Vec3> points, const Surface &surface, const SurfaceTopology &topology,
-                        double min_distance, std::int64_t leaf, Job &job, Array<std::int32_t> &samples);
+                        double min_distance, std::int64_t leaf, Job &job, Array<std::int32_t> &samples,
+                        Span<const std::uint8_t> may_be_near = {});
 
 }  // namespace tetlod

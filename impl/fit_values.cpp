@@ -57,6 +57,7 @@ class Fit {
     for (std::size_t t = 0; t < normals_.size(); t++)
       if (mesh_.alive(std::int32_t(t)))
         for (std::size_t k = 0; k < 4; k++) r[std::size_t(mesh_.tets[t][k])] -= normals_[t].r[k];
+    leave_kept(r);
     p.assign(r.begin(), r.end());
     double rr = dot(r, r);
     const double start = rr;
@@ -93,6 +94,12 @@ class Fit {
         image[std::size_t(tet[i])] += sum;
       }
     }
+    leave_kept(image);
+  }
+
+  void leave_kept(Array<double> &of_vertices) const {
+    for (std::size_t v = 0; v < of_vertices.size(); v++)
+      if (mesh_.kept[v]) of_vertices[v] = 0;
   }
 
   /// Within what was seen around each vertex, itself included.

@@ -47,8 +47,7 @@ bool correct_corner(const AdaptiveMesh &mesh, std::int32_t t, const Vec3 &p, std
 
 class Bound {
  public:
-  Bound(double bound, Job &job, AdaptiveMesh &mesh)
-      : bound_((1 - margin) * bound), job_(job), mesh_(mesh), kept_(mesh.points.size(), 0, &job.memory) {}
+  Bound(double bound, Job &job, AdaptiveMesh &mesh) : bound_((1 - margin) * bound), job_(job), mesh_(mesh) {}
 
   std::int64_t hold() {
     for (int sweep = 0;; sweep++) {
@@ -81,8 +80,7 @@ class Bound {
     if (correct_corner(mesh_, t, probe.point, corner)) return give_value(corner, probe.value);
     for (double snap : snaps)
       if (insert_vertex(t, probe.point, probe.value, snap, flattest, mesh_)) {
-        kept_.resize(mesh_.points.size(), 0);
-        kept_.back() = 1;
+        mesh_.kept.back() = 1;
         return true;
       }
     return false;
@@ -90,8 +88,8 @@ class Bound {
 
   /// Once a vertex has been given its value it is not given another.
   bool give_value(std::int32_t v, double value) {
-    if (kept_[std::size_t(v)]) return false;
-    kept_[std::size_t(v)] = 1;
+    if (mesh_.kept[std::size_t(v)]) return false;
+    mesh_.kept[std::size_t(v)] = 1;
     mesh_.values[std::size_t(v)] = value;
     Array<std::int32_t> around(&job_.memory);
     mesh_.star(v, around);
@@ -102,7 +100,6 @@ class Bound {
   double bound_;
   Job &job_;
   AdaptiveMesh &mesh_;
-  Array<std::uint8_t> kept_;  // vertices that are an original one, with its value
   std::int64_t left_ = 0;
 };
 

@@ -86,6 +86,10 @@ bool insert_vertex(std::int32_t t, const Vec3 &p, double value, double snap, dou
       part[k] = v;
       fresh.push_back(part);
     }
+  // The faces among kept vertices stay, so that partitions with kept interfaces go on fitting.
+  if (on_boundary &&
+      std::all_of(simplex, simplex + size, [&](std::int32_t u) { return mesh.kept[std::size_t(u)] != 0; }))
+    return false;
   mesh.points.push_back(size == 4 ? p : sum / total);
   for (const Tet &part : fresh)
     if (!is_sound(mesh, part, least)) {
@@ -94,6 +98,7 @@ bool insert_vertex(std::int32_t t, const Vec3 &p, double value, double snap, dou
     }
   mesh.values.push_back(value);
   mesh.fixed.push_back(on_boundary);
+  mesh.kept.push_back(0);
   mesh.tet_of.push_back(-1);
   mesh.replace(old, fresh, made);
   return true;

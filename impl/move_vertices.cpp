@@ -48,7 +48,7 @@ class Mover {
     std::int64_t moved = 0;
     for (std::size_t v = first; v < mesh_.points.size(); v++) {
       if (v % 64 == 0) job_.poll(double(v) / double(mesh_.points.size()));
-      if (!mesh_.fixed[v]) moved += improve(std::int32_t(v), least);
+      if (!mesh_.fixed[v] && !mesh_.kept[v]) moved += improve(std::int32_t(v), least);
     }
     return moved;
   }

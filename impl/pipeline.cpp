@@ -1,13 +1,14 @@
 #include "pipeline.hpp"
 
 #include <chrono>
-#include <cstring>
 
+#include "budget.hpp"
 #include "carry_fields.hpp"
 #include "cull_samples.hpp"
 #include "extract_boundary.hpp"
 #include "find_crossing.hpp"
 #include "geometry.hpp"
+#include "hash.hpp"
 #include "interpolate.hpp"
 #include "prepare.hpp"
 #include "refine.hpp"
@@ -34,43 +35,6 @@ class StageTimer {
   double &seconds_;
   Clock::time_point begin_ = Clock::now();
 };
-
-bool as_published(const Options &options) { return options.target_ratio <= 0 && options.max_error <= 0; }
-
-/// A bound without a size begins with few tets.
-constexpr double first_ratio = 0.05;
-
-double ratio_of(const Options &options) { return options.target_ratio > 0 ? options.target_ratio : first_ratio; }
-
-/// What a target size is spent on.
-struct Budget {
-  std::int64_t tets = 0;
-  double sigma = 0;
-  std::size_t samples = 0;
-};
-
-/// Tets that a sample and a boundary vertex bring, by experience.
-constexpr double tets_a_sample = 6.5, tets_a_boundary_point = 3;
-/// Share of the tets that is left to the vertices that refine() inserts.
-constexpr double spare = 0.05;
-constexpr int most_rounds = 6;
-/// What the field's range counts as beside the diagonal, when the boundary is decimated: more costs geometry.
-constexpr double field_weight = 0.15;
-
-/// A surface has fewer triangles to lose than its solid has tets, and less to lose them for.
-double boundary_share(double ratio) { return std::pow(ratio, 0.66); }
-
-Budget budget_of(double ratio, const Report &report) {
-  Budget budget;
-  const double whole = double(report.tets_in - report.dropped_tets), triangles = double(report.boundary_triangles_in);
-  budget.tets = std::int64_t(ratio * whole);
-  const double most = 0.6 * double(budget.tets) * 2 / tets_a_boundary_point;
-  const double kept = std::min(boundary_share(ratio) * triangles, most);
-  budget.sigma = kept / triangles;
-  const double left = (1 - spare) * double(budget.tets) - kept / 2 * tets_a_boundary_point;
-  budget.samples = std::size_t(std::max(left / tets_a_sample, 0.0));
-  return budget;
-}
 
 class Pipeline {
  public:
@@ -152,7 +116,8 @@ class Pipeline {
   std::int64_t refine() {
     const StageTimer timer(Stage::values, job_, report_);
     const double range = report_.scalar_max - report_.scalar_min;
-    const RefineOptions options{budget_.tets, options_.effort == effort_accurate, options_.max_error * range};
+    const Array<std::uint8_t> kept = flags_of_result();
+    const RefineOptions options{budget_.tets, options_.effort == effort_accurate, options_.max_error * range, kept};
     const RefineReport refined = tetlod::refine(original_.view, options, job_, mesh_);
     report_.inserted_points = refined.inserted - refined.inserted_on_boundary;
     report_.boundary_points_out += refined.inserted_on_boundary;
@@ -232,7 +197,7 @@ class Pipeline {
     const double weight =
         as_published(options_) || !(range > 0) ? 0 : field_weight * box_of(surface.points).diagonal() / range;
     const DecimateOptions options{sigma, options_.lambda, options_.clean_edges, weight};
-    report_.cleaned_edges = decimate_boundary(surface, topology, {}, options, job_).cleaned_edges;
+    report_.cleaned_edges = decimate_boundary(surface, topology, flags_of(surface), options, job_).cleaned_edges;
     refuse_crossing(surface, input_.index_base, job_);
     surface_ = std::move(surface);
     topology_ = SurfaceTopology(job_.memory);
@@ -242,11 +207,36 @@ class Pipeline {
     report_.boundary_triangles_out = std::int64_t(surface_.triangles.size());
   }
 
+  Array<std::uint8_t> flags_of(const Surface &surface) const {
+    Array<std::uint8_t> flags(&job_.memory);
+    if (original_.flags.empty()) return flags;
+    for (std::int32_t v : surface.origin) flags.push_back(original_.flags[std::size_t(v)]);
+    return flags;
+  }
+
+  Array<std::uint8_t> flags_of_result() const {
+    Array<std::uint8_t> flags(&job_.memory);
+    if (original_.flags.empty()) return flags;
+    flags.assign(remeshed_.origin.size(), 0);
+    for (std::size_t i = 0; i < flags.size(); i++)
+      if (const std::int32_t v = original_vertex(remeshed_.origin[i]); v >= 0)
+        flags[i] = original_.flags[std::size_t(v)];
+    return flags;
+  }
+
+  /// Of a point of the remeshed mesh; -1 where decimation or TetGen placed it.
+  std::int32_t original_vertex(std::int32_t origin) const {
+    const auto boundary = std::int32_t(surface_.points.size());
+    if (origin < 0) return -1;
+    return origin < boundary ? surface_.origin[std::size_t(origin)] : samples_[std::size_t(origin - boundary)];
+  }
+
   void sample() {
     const StageTimer timer(Stage::sample, job_, report_);
     if (!as_published(options_)) return sample_where_not_linear();
     const double variation = options_.rho * (original_.scalar_max - original_.scalar_min);
     sample_interior(original_.view, {boundary_.interior.data(), boundary_.interior.size()}, variation, job_, selected_);
+    if (!original_.flags.empty()) add_flagged(original_.flags, boundary_.interior, selected_);
     report_.selected_samples = std::int64_t(selected_.size());
   }
 
@@ -261,6 +251,7 @@ class Pipeline {
       if (on_boundary[v]) vertices.push_back(std::int32_t(v));
     selected_.clear();
     sample_residual(original_.view, vertices, is_interior, budget_.samples, job_, selected_);
+    if (!original_.flags.empty()) add_flagged(original_.flags, boundary_.interior, selected_);
     report_.selected_samples = std::int64_t(selected_.size());
   }
 
@@ -269,8 +260,8 @@ class Pipeline {
     const double diagonal = box_of(surface_.points).diagonal();
     const double least = as_published(options_) ? options_.min_distance * diagonal : 0;
     samples_ = selected_;
-    const CullReport culled =
-        cull_samples(original_.view.points, surface_, topology_, least, options_.boundary_leaf, job_, samples_);
+    const CullReport culled = cull_samples(original_.view.points, surface_, topology_, least, options_.boundary_leaf,
+                                           job_, samples_, original_.flags);
     report_.samples_outside = culled.outside;
     report_.samples_too_near = culled.too_near;
   }
@@ -343,38 +334,6 @@ class Pipeline {
   RemeshResult remeshed_{job_.memory};
 };
 
-/// Of the bytes, eight at a time.
-class Hash {
- public:
-  template <class T>
-  void add(const Array<T> &array) {
-    const auto *bytes = reinterpret_cast<const unsigned char *>(array.data());
-    const std::size_t size = array.size() * sizeof(T);
-    mix(size);
-    for (std::size_t i = 0; i < size; i += 8) {
-      std::uint64_t word = 0;
-      std::memcpy(&word, bytes + i, std::min<std::size_t>(8, size - i));
-      mix(word);
-    }
-  }
-  std::uint64_t value() const { return value_; }
-
- private:
-  void mix(std::uint64_t word) {
-    value_ = (value_ ^ word) * 0x9e3779b97f4a7c15u;
-    value_ ^= value_ >> 29;
-  }
-  std::uint64_t value_ = 0x51ed270b0a1f39c1u;
-};
-
-std::uint64_t hash_of(const TetMesh &mesh) {
-  Hash hash;
-  hash.add(mesh.points);
-  hash.add(mesh.scalars);
-  hash.add(mesh.tets);
-  return hash.value();
-}
-
 /// Of a result, for each of its points.
 double bytes_of_fields(const Input &input) {
   constexpr double tets_a_point = 6;
@@ -403,9 +362,8 @@ std::uint64_t estimate_memory(const Input &input, const Options &options, Job &j
   Pipeline pipeline(input, options, job, result);
   pipeline.begin();
   const double triangles = double(result.report.boundary_triangles_in);
-  const double points = as_published(options)
-                            ? options.sigma * triangles / 2 + double(result.report.selected_samples)
-                            : ratio_of(options) * double(result.report.tets_in) / tets_a_result_point;
+  const double points = as_published(options) ? options.sigma * triangles / 2 + double(result.report.selected_samples)
+                                              : ratio_of(options) * double(result.report.tets_in) / tets_a_result_point;
   const double carried = input.fields.empty() ? 0 : bytes_a_located_point + bytes_of_fields(input);
   const double later = double(job.memory.in_use()) +
                        std::max({bytes_a_triangle * triangles, bytes_a_result_point * points, carried * points});

@@ -47,6 +47,10 @@ struct Options {
   std::int64_t on_nonfinite = policy_error;  ///< repair: ignore points without a finite value together with their tets
 };
 
+/// What a point's flags ask for: the vertex survives, with its place and value; edges and triangles of the boundary
+/// between such vertices stay, too. The numbers are those of the C ABI.
+constexpr std::uint8_t keep_vertex = 1, lock_vertex = 2;
+
 /// The numbers are those of the C ABI.
 enum class Association : std::int32_t { point = 0, cell = 1 };
 
@@ -63,6 +67,7 @@ struct Input {
   StridedArray tets;                ///< four components
   std::int32_t index_base = 0;
   StridedArray scalars;                ///< one component
+  StridedArray flags;                  ///< of points: uint8, one component, keep_vertex or lock_vertex; absent: none
   std::vector<SubmittedField> fields;  ///< names are unique; as many tuples as points or tets
 };
 

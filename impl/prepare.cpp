@@ -172,6 +172,18 @@ void scale_extreme_coordinates(Job &job, Original &original) {
   original.box = {scaled(original.box.low), scaled(original.box.high)};
 }
 
+void read_flags(const Input &input, Span<const std::int32_t> representative, Original &original) {
+  if (!input.flags.present) return;
+  original.flags.assign(representative.size(), 0);
+  for (std::size_t v = 0; v < representative.size(); v++) {
+    const auto flags = input.flags.at<std::uint8_t>(std::int64_t(v), 0);
+    if (flags > (keep_vertex | lock_vertex))
+      fail(Status::argument, "the flags of vertex %zu are %d, of which not all have a meaning",
+           v + std::size_t(input.index_base), int(flags));
+    original.flags[std::size_t(representative[v])] |= flags;
+  }
+}
+
 bool any_repeated_vertex(Span<const Tet> tets, Job &job) {
   FirstCulprit culprit;
   job.parallel.for_blocks(tets.size(), block, [&](std::size_t begin, std::size_t end) {
@@ -188,6 +200,9 @@ void check_counts(const Input &input) {
          static_cast<long long>(input.tets.tuples));
   if (input.scalars.tuples != input.xyz[0].tuples)
     fail(Status::argument, "%lld values for %lld points", static_cast<long long>(input.scalars.tuples),
+         static_cast<long long>(input.xyz[0].tuples));
+  if (input.flags.present && input.flags.tuples != input.xyz[0].tuples)
+    fail(Status::argument, "%lld flags for %lld points", static_cast<long long>(input.flags.tuples),
          static_cast<long long>(input.xyz[0].tuples));
   for (std::int64_t count : {input.xyz[0].tuples, input.tets.tuples})
     if (count > max_count)
@@ -218,6 +233,7 @@ void prepare_original(const Input &input, const Options &options, Job &job, Orig
   const double diagonal = original.box.diagonal();
   original.merged_points =
       merge_points(original.view.points, used, options.merge_tolerance * diagonal, job, representative);
+  read_flags(input, representative, original);
   if (original.merged_points || original.nonfinite_points || any_repeated_vertex(original.view.tets, job))
     drop_and_rename(representative, used, job, original);
   if (original.view.tets.empty())

@@ -10,12 +10,14 @@ namespace tetlod {
 
 /// The original mesh; the caller's own arrays where their layout allows, copies where not.
 struct Original {
-  explicit Original(Memory &memory) : points(&memory), scalars(&memory), tets(&memory), tet_number(&memory) {}
+  explicit Original(Memory &memory)
+      : points(&memory), scalars(&memory), tets(&memory), tet_number(&memory), flags(&memory) {}
   MeshView view;
   Array<Vec3> points;
   Array<double> scalars;
   Array<Tet> tets;
   Array<std::int32_t> tet_number;     ///< of each tet among the submitted ones; empty: none was dropped
+  Array<std::uint8_t> flags;          ///< of each vertex, those of points that became it included; empty: none are set
   std::int64_t merged_points = 0;     ///< coincident points that became one
   std::int64_t nonfinite_points = 0;  ///< without a finite value, ignored with their tets
   std::int64_t dropped_tets = 0;      ///< with such a point, or with a repeated vertex, as submitted or after merging
@@ -29,7 +31,8 @@ struct Original {
 int extreme_exponent(const Box &box);
 
 /// Coordinates so large or small that their sixth powers leave the range of doubles are scaled, exactly.
-/// Throws Status::mesh_empty, mesh_index, mesh_nonfinite, mesh_too_large.
+/// Throws Status::argument (as many values and flags as points), mesh_empty, mesh_index, mesh_nonfinite,
+/// mesh_too_large.
 void prepare_original(const Input &input, const Options &options, Job &job, Original &original);
 
 }  // namespace tetlod

@@ -26,6 +26,8 @@ class Refinement {
     mesh_.values = std::move(mesh.scalars);
     mesh_.tets = std::move(mesh.tets);
     first_inserted_ = mesh_.points.size();
+    mesh_.kept.assign(options.kept.begin(), options.kept.end());
+    mesh_.kept.resize(mesh_.points.size(), 0);
     mesh_.connect();
     report_.probes_outside = place_probes(original, options.bound > 0, job, mesh_);
   }

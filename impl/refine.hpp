@@ -6,9 +6,10 @@
 namespace tetlod {
 
 struct RefineOptions {
-  std::int64_t tets = 0;     ///< how many there shall be
-  bool follow_field = true;  ///< also move vertices and flip
-  double bound = 0;          ///< of the error at every original vertex, absolute; 0: none
+  std::int64_t tets = 0;          ///< how many there shall be
+  bool follow_field = true;       ///< also move vertices and flip
+  double bound = 0;               ///< of the error at every original vertex, absolute; 0: none
+  Span<const std::uint8_t> kept;  ///< points that keep place and value, and the faces among them; empty: none
 };
 
 struct RefineReport {

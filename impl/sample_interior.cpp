@@ -116,4 +116,13 @@ void sample_interior(const MeshView &mesh, Span<std::int32_t> vertices, double v
   SamplingTree(mesh, vertices, variation, job).sample(samples);
 }
 
+void add_flagged(Span<const std::uint8_t> flags, Span<const std::int32_t> vertices, Array<std::int32_t> &samples) {
+  Array<std::uint8_t> wanted(flags.begin(), flags.end(), samples.get_allocator());
+  for (std::int32_t v : samples) wanted[std::size_t(v)] = 0;
+  const std::size_t sampled = samples.size();
+  for (std::int32_t v : vertices)
+    if (wanted[std::size_t(v)]) samples.push_back(v);
+  std::sort(samples.begin() + std::ptrdiff_t(sampled), samples.end());
+}
+
 }  // namespace tetlod

@@ -13,4 +13,7 @@ namespace tetlod {
 void sample_interior(const MeshView &mesh, Span<std::int32_t> vertices, double variation, Job &job,
                      Array<std::int32_t> &samples);
 
+/// Vertices with flags[v] != 0 that are not among the samples join them, in the order of their numbers.
+void add_flagged(Span<const std::uint8_t> flags, Span<const std::int32_t> vertices, Array<std::int32_t> &samples);
+
 }  // namespace tetlod

@@ -215,6 +215,20 @@ TEST_F(Cull, MinDistanceIsExact) {
   EXPECT_EQ(report.too_near, 1);
 }
 
+/// One that may be near stays however near it is, but not outside.
+TEST_F(Cull, SomeMayBeNear) {
+  const Surface surface = box(host.memory, 2);
+  const SurfaceTopology topology = topology_of(surface);
+  points = {Vec3(1e-3, 0.3, 0.4), Vec3(1e-3, 0.6, 0.4), Vec3(-0.1, 0.5, 0.5), Vec3(0.5, 0.5, 0.6)};
+  const std::vector<std::uint8_t> near = {1, 0, 1, 0};
+  Array<std::int32_t> samples = all_samples();
+  const CullReport report = cull_samples({points.data(), points.size()}, surface, topology, 0.1, 200, host.job, samples,
+                                         {near.data(), near.size()});
+  EXPECT_EQ(std::vector<std::int32_t>(samples.begin(), samples.end()), (std::vector<std::int32_t>{0, 3}));
+  EXPECT_EQ(report.outside, 1);
+  EXPECT_EQ(report.too_near, 1);
+}
+
 /// Without a distance asked for, a sample on the surface or a rounding from it goes all the same; others stay.
 TEST_F(Cull, NeverOnTheSurface) {
   const Surface surface = box(host.memory, 2);

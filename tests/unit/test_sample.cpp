@@ -219,5 +219,14 @@ TEST_F(Sample, VeryUnbalanced) {
   EXPECT_EQ(sample(all(), 0.5).size(), 1000u);
 }
 
+TEST(AddFlagged, JoinsWhatIsMissingOnce) {
+  Host host;
+  const std::vector<std::uint8_t> flags = {1, 0, 2, 3, 0, 1, 1};
+  const std::vector<std::int32_t> vertices = {6, 4, 3, 2, 1, 0};  // 5 is none of them
+  Array<std::int32_t> samples({4, 3}, &host.memory);
+  add_flagged({flags.data(), flags.size()}, {vertices.data(), vertices.size()}, samples);
+  EXPECT_EQ(std::vector<std::int32_t>(samples.begin(), samples.end()), (std::vector<std::int32_t>{4, 3, 0, 2, 6}));
+}
+
 }  // namespace
 }  // namespace tetlod

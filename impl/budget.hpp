@@ -1,0 +1,48 @@
+// What the tets of a target size are spent on: boundary and samples.
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "pipeline.hpp"
+
+namespace tetlod {
+
+inline bool as_published(const Options &options) { return options.target_ratio <= 0 && options.max_error <= 0; }
+
+/// A bound without a size begins with few tets.
+constexpr double first_ratio = 0.05;
+
+inline double ratio_of(const Options &options) { return options.target_ratio > 0 ? options.target_ratio : first_ratio; }
+
+/// What a target size is spent on.
+struct Budget {
+  std::int64_t tets = 0;
+  double sigma = 0;
+  std::size_t samples = 0;
+};
+
+/// Tets that a sample and a boundary vertex bring, by experience.
+constexpr double tets_a_sample = 6.5, tets_a_boundary_point = 3;
+/// Share of the tets that is left to the vertices that refine() inserts.
+constexpr double spare = 0.05;
+constexpr int most_rounds = 6;
+/// What the field's range counts as beside the diagonal, when the boundary is decimated: more costs geometry.
+constexpr double field_weight = 0.15;
+
+/// A surface has fewer triangles to lose than its solid has tets, and less to lose them for.
+inline double boundary_share(double ratio) { return std::pow(ratio, 0.66); }
+
+inline Budget budget_of(double ratio, const Report &report) {
+  Budget budget;
+  const double whole = double(report.tets_in - report.dropped_tets), triangles = double(report.boundary_triangles_in);
+  budget.tets = std::int64_t(ratio * whole);
+  const double most = 0.6 * double(budget.tets) * 2 / tets_a_boundary_point;
+  const double kept = std::min(boundary_share(ratio) * triangles, most);
+  budget.sigma = kept / triangles;
+  const double left = (1 - spare) * double(budget.tets) - kept / 2 * tets_a_boundary_point;
+  budget.samples = std::size_t(std::max(left / tets_a_sample, 0.0));
+  return budget;
+}
+
+}  // namespace tetlod
