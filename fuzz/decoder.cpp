@@ -133,9 +133,9 @@ void flatten(Mesh &mesh, Bytes &in) {
   scale(mesh, exponents);
 }
 
-double extent(const Mesh &mesh, std::size_t axis) {
+double extent(const std::vector<Point> &points, std::size_t axis) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const Point &p : mesh.points) {
+  for (const Point &p : points) {
     low = std::min(low, p[axis]);
     high = std::max(high, p[axis]);
   }
@@ -147,7 +147,7 @@ void shift_all(Mesh &mesh, Bytes &in) {
   const int exponent = int(in.below(20));
   if (exponent > 5) mesh.sound = false;
   const std::size_t axis = in.below(3);
-  const double offset = std::ldexp(in.one_in(2) ? -1.0 : 1.0, exponent) * extent(mesh, axis);
+  const double offset = std::ldexp(in.one_in(2) ? -1.0 : 1.0, exponent) * extent(mesh.points, axis);
   for (Point &p : mesh.points) p[axis] += offset;
 }
 
@@ -163,14 +163,23 @@ void edit(Mesh &mesh, Bytes &in) {
   }
 }
 
+std::vector<Point> used_points(const Mesh &mesh) {
+  std::vector<Point> used;
+  for (const Corners &tet : mesh.tets)
+    for (const std::int64_t v : tet)
+      if (v >= 0 && v < mesh.point_count()) used.push_back(mesh.points[std::size_t(v)]);
+  return used;
+}
+
 /// At the ends of the range of doubles the edits have rounded too much away, and TetGen may fail on plates and needles
-/// thinner than a millionth. What unused points are does not count, but makes the extents wrong: then nothing is said.
+/// thinner than a millionth.
 void judge_range(Mesh &mesh) {
+  const std::vector<Point> used = used_points(mesh);
   double least = std::numeric_limits<double>::infinity(), most = 0;
   for (std::size_t axis = 0; axis < 3; axis++) {
-    least = std::min(least, extent(mesh, axis));
-    most = std::max(most, extent(mesh, axis));
-    for (const Point &p : mesh.points) {
+    least = std::min(least, extent(used, axis));
+    most = std::max(most, extent(used, axis));
+    for (const Point &p : used) {
       const double size = std::abs(p[axis]);
       if (!(size < 1e305) || (size != 0 && size < 1e-305)) mesh.sound = false;
     }

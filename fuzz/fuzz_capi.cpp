@@ -12,7 +12,7 @@ namespace fuzz {
 
 namespace {
 
-constexpr int most_steps = 12;
+constexpr int most_steps = 8;
 
 // ---- Without a context ---------------------------------------------------------------------------------------------
 
@@ -25,11 +25,10 @@ void ask_texts(Session &, Bytes &in) {
   const std::int32_t option = decode_option(in);
   const char *const name = tetlod_option_name(option);
   if (name) DEMAND(tetlod_option_from_name(name) == option, "an option is known by its name");
-  char garbled[8] = {};
-  for (char &letter : garbled) letter = char(in.byte());
-  garbled[7] = 0;
-  const std::int32_t found = tetlod_option_from_name(garbled);
-  DEMAND(found == 0 || std::strcmp(tetlod_option_name(found), garbled) == 0, "an option has the name");
+  std::string garbled;
+  for (std::size_t letters = in.below(16); letters > 0; letters--) garbled += char(in.byte());
+  const std::int32_t found = tetlod_option_from_name(garbled.c_str());
+  DEMAND(found == 0 || std::strcmp(tetlod_option_name(found), garbled.c_str()) == 0, "an option has the name");
 }
 
 /// Outputs that no failure may touch.

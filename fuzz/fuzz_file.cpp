@@ -129,14 +129,18 @@ std::size_t word_length(const std::string &text, std::size_t at) {
   return std::min(text.find_first_of(" \n\"<>", at), text.size()) - at;
 }
 
+/// A real number where the line has such, otherwise one that fits a cell's corners, kind, or end: VTK makes room for as
+/// many corners as an end says.
 void replace_number(std::string &text, Bytes &in) {
-  static const char *const words[] = {"0",   "-1",  "1",    "2",   "3",          "4",   "5",  "10",    "12",   "14",
-                                      "16",  "24",  "42",   "255", "999999",     "nan", "",   "1e300", "-1e9", "x",
-                                      "inf", "1 1", "1e-9", "8",   "2147483648", "27",  "68", "71",    "78",   "0.5"};
+  static const char *const reals[] = {"nan", "inf", "1e300", "-1e-320", "2147483648", "-1.5"};
+  static const char *const integers[] = {"0",  "1",  "2",  "3",  "4",  "5",  "6",  "8",  "9",   "10",   "11",
+                                         "12", "13", "14", "15", "16", "24", "25", "71", "255", "4000", "65536"};
   const std::vector<std::size_t> numbers = numbers_of(text);
   if (numbers.empty()) return;
   const std::size_t at = numbers[in.below(numbers.size())];
-  text.replace(at, word_length(text, at), words[in.below(std::size(words))]);
+  const bool real = text.find('.', text.rfind('\n', at)) < text.find('\n', at);
+  const char *const word = real ? reals[in.below(std::size(reals))] : integers[in.below(std::size(integers))];
+  text.replace(at, word_length(text, at), word);
 }
 
 std::size_t line_begin(const std::string &text, Bytes &in) {
@@ -260,6 +264,10 @@ void read(const std::string &path) {
 }  // namespace
 
 }  // namespace fuzz
+
+/// VTK's XML reader forgets the array of cell types when a file is broken; nobody else makes such an array.
+extern "C" const char *__lsan_default_suppressions() { return "leak:vtkUnsignedCharArray\n"; }
+extern "C" const char *__lsan_default_options() { return "print_suppressions=0"; }
 
 extern "C" int LLVMFuzzerInitialize(int *, char ***) {
   fuzz::settle();

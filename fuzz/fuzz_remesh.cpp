@@ -197,6 +197,13 @@ void check_success(const Problem &problem, const tetlod::RemeshResult &result) {
   check_conforming(tets, problem.triangles);
 }
 
+void trace_problem(const Problem &problem) {
+  for (const Point &p : problem.points) trace("v %.17g %.17g %.17g\n", p[0], p[1], p[2]);
+  for (const Face &f : problem.triangles)
+    trace("f %lld %lld %lld\n", (long long)f[0], (long long)f[1], (long long)f[2]);
+  for (const Point &p : problem.samples) trace("s %.17g %.17g %.17g\n", p[0], p[1], p[2]);
+}
+
 /// One for all inputs: it costs more than they do.
 tetlod::Worker &worker() {
   static tetlod::Worker one(TETLOD_REMESH);
@@ -207,6 +214,7 @@ bool remesh(Stage &stage, const Problem &problem) {
   tetlod::Surface surface(stage.memory());
   tetlod::Array<tetlod::Vec3> samples(&stage.memory());
   tetlod::RemeshResult result(stage.memory());
+  trace_problem(problem);
   const tetlod::Vec3 untouched(7);
   const Status status =
       stage.call("remesh",

@@ -84,7 +84,9 @@ class Wrongs {
     const Wide far = Wide(all.tuples - 1) * all.tuple_stride, wide = Wide(all.components - 1) * all.component_stride;
     const Wide zero = 0, low = start + std::min(far, zero) + std::min(wide, zero);
     const Wide high = start + std::max(far, zero) + std::max(wide, zero) + all.element();
-    return low < 0 || high > Wide(std::numeric_limits<std::uintptr_t>::max());
+    const Wide most = std::numeric_limits<std::int64_t>::max();  // of a reach, as strides are such numbers
+    return low < 0 || high > Wide(std::numeric_limits<std::uintptr_t>::max()) || high - start > most ||
+           start - low > most;
   }
 
   const tetlod_array &array_;
@@ -188,10 +190,10 @@ Session &finished() {
 
 /// c component strides as long as some tuple strides: two elements in one place.
 bool overlaps(const Layout &layout) {
-  for (std::int64_t c = 1; c < layout.components; c++)
-    for (std::int64_t i = 1; i < layout.tuples; i++)
-      for (const std::int64_t way : {i, -i})
-        if (Wide(c) * layout.component_stride == Wide(way) * layout.tuple_stride) return true;
+  for (std::int64_t c = 1; c < layout.components; c++) {
+    const Wide way = Wide(c) * layout.component_stride, tuples = way / layout.tuple_stride;
+    if (tuples * layout.tuple_stride == way && tuples < layout.tuples && -tuples < layout.tuples) return true;
+  }
   return false;
 }
 

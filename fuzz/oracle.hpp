@@ -25,9 +25,11 @@ void check_positive(const std::vector<Point> &points, const std::vector<Corners>
 void check_conforming(const std::vector<Corners> &tets, const std::vector<Face> &boundary);
 /// No hole in the surface, and it meets itself nowhere but at common vertices and edges.
 void check_surface(const std::vector<Point> &points, const std::vector<Face> &boundary);
-/// Components and Euler characteristic, also of the surface cut apart where it touches itself.
-void check_same_topology(const std::vector<Point> &before, const std::vector<Face> &original,
-                         const std::vector<Point> &after, const std::vector<Face> &boundary);
+/// Components and Euler characteristic of the surface as it is.
+void check_same_topology(const std::vector<Face> &original, const std::vector<Face> &boundary);
+/// ... and cut apart where it touches itself. The second must not cross itself: such a surface has no cut.
+void check_same_cut_topology(const std::vector<Point> &before, const std::vector<Face> &original,
+                             const std::vector<Point> &after, const std::vector<Face> &boundary);
 void check_values(const std::vector<double> &values, double low, double high);
 
 /// All of it, for the result of a run with this mesh.

@@ -31,6 +31,7 @@ tetlod::StridedArray strided(tetlod::ElementType type, std::size_t tuples, int c
 Stage::Stage(Bytes &in) : memory_(hooks_of(allocator_)), parallel_(in.one_in(4) ? 2 : 1), job_(memory_, parallel_) {
   job_.cancel = &cancel_;
   job_.time_limit = 20;
+  job_.log = [](int, const char *message) { trace("%s\n", message); };
   trouble(in);
 }
 

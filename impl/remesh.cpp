@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/vector_relational.hpp>
 #include <random>
 #include <utility>
 
@@ -31,8 +32,14 @@ std::string switches(const SurfaceFacts &facts, bool own_tolerance) {
   return std::string("pY") + (facts.components > 1 ? "A" : "") + "M0/1" + (own_tolerance ? "T1e-5" : "") + "JzQ";
 }
 
+bool holds(const Box &box, const Vec3 &p) {
+  return glm::all(glm::lessThanEqual(box.low, p)) && glm::all(glm::lessThanEqual(p, box.high));
+}
+
+/// Not one beyond the surface's box: no tet would use it, and far away ones make TetGen loop or fail.
 void add_sample(const Problem &problem, std::size_t i, const Frame &frame, Array<Vec3> &points,
                 Array<std::int32_t> &number) {
+  if (!holds(problem.facts.box, problem.samples[i])) return;
   points.push_back(frame.into(problem.samples[i]));
   number.push_back(std::int32_t(problem.surface.points.size() + i));
 }
@@ -110,6 +117,7 @@ RemeshInput samples_inserted_late(const Problem &problem) {
 /// Nearer to the surface than half the longest edge of the nearest triangle.
 bool crowds(const Vec3 &p, const Surface &surface, const NearestTriangle &triangles) {
   const NearestPoint at = triangles.nearest(p);
+  if (at.triangle < 0) return false;
   const Triangle &t = surface.triangles[std::size_t(at.triangle)];
   const Vec3 &a = surface.points[std::size_t(t[0])], &b = surface.points[std::size_t(t[1])],
              &c = surface.points[std::size_t(t[2])];

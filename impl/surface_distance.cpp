@@ -1,6 +1,7 @@
 #include "surface_distance.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "geometry.hpp"
 
@@ -36,6 +37,10 @@ NearestPoint NearestTriangle::nearest(const Vec3 &p) const {
     weights_in(t, at);
     return length2(at - p);
   });
+  if (best.triangle < 0) {  // so far away that squares leave the range of doubles
+    best.distance = std::numeric_limits<double>::infinity();
+    return best;
+  }
   best.weights = weights_in(best.triangle, at);
   best.distance = std::sqrt(distance2);
   return best;

@@ -186,6 +186,18 @@ TEST_F(Remesh, SamplesInBadPlaces) {
   EXPECT_GE(result.report.dropped_samples, 3);
 }
 
+TEST_F(Remesh, SamplesFarAwayAreLeftOutAtOnce) {
+  const Surface surface = box(memory, 3, Vec3(-1), Vec3(1));
+  for (const double far : {1e100, 1e305, std::numeric_limits<double>::max()}) {
+    Array<Vec3> samples(&memory);
+    samples = {{{0.1, 0.2, 0.3}, {far, 0, 0}, {far, -far, far}, {0, 0, -far}}, &memory};
+    run(surface, samples);
+    expect_good(surface, samples);
+    EXPECT_EQ(result.report.dropped_samples, 3);
+    EXPECT_EQ(result.report.attempts, 1);
+  }
+}
+
 /// The worker fails so often that the attempt in question is the one that has to do.
 TEST_F(Remesh, EveryAttemptOfTheLadder) {
   Surface surface = sphere(memory, 8);
