@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "demand.hpp"
 #include "find_crossing.hpp"
@@ -73,6 +74,16 @@ CutTopology cut_topology(const std::vector<Point> &points, const std::vector<Fac
           topology.nonmanifold_points};
 }
 
+/// Two triangles that cross, or -1, -1.
+std::pair<std::int32_t, std::int32_t> crossing_of(const std::vector<Point> &points, const std::vector<Face> &faces) {
+  tetlod::Memory memory;
+  const tetlod::Parallel alone(1);
+  tetlod::Job job(memory, alone);
+  tetlod::Surface surface(memory);
+  make_surface(points, faces, surface);
+  return tetlod::find_crossing(surface, job);
+}
+
 constexpr std::size_t face_corners[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
 /// Turned so that the lowest corner comes first: the same for the same side of the same face.
@@ -117,12 +128,7 @@ void check_conforming(const std::vector<Corners> &tets, const std::vector<Face> 
 
 void check_surface(const std::vector<Point> &points, const std::vector<Face> &boundary) {
   DEMAND(topology_of(boundary).closed, "the boundary is closed");
-  tetlod::Memory memory;
-  const tetlod::Parallel alone(1);
-  tetlod::Job job(memory, alone);
-  tetlod::Surface surface(memory);
-  make_surface(points, boundary, surface);
-  const auto [a, b] = tetlod::find_crossing(surface, job);
+  const auto [a, b] = crossing_of(points, boundary);
   DEMAND(a < 0, "the boundary does not cross itself: triangles %d and %d do", a, b);
 }
 
@@ -161,7 +167,8 @@ void check_result(const Mesh &mesh, const Facts &facts, const Fetched &result) {
   check_surface(result.points, result.boundary);
   check_values(result.values, facts.low, facts.high);
   check_same_topology(facts.boundary, result.boundary);
-  check_same_cut_topology(mesh.points, facts.boundary, result.points, result.boundary);
+  if (crossing_of(mesh.points, facts.boundary).first < 0)
+    check_same_cut_topology(mesh.points, facts.boundary, result.points, result.boundary);
 }
 
 }  // namespace fuzz

@@ -27,7 +27,8 @@ void check_conforming(const std::vector<Corners> &tets, const std::vector<Face> 
 void check_surface(const std::vector<Point> &points, const std::vector<Face> &boundary);
 /// Components and Euler characteristic of the surface as it is.
 void check_same_topology(const std::vector<Face> &original, const std::vector<Face> &boundary);
-/// ... and cut apart where it touches itself. The second must not cross itself: such a surface has no cut.
+/// ... and cut apart where it touches itself. Neither may cross itself: which sheets belong together at an edge is then
+/// a matter of chance.
 void check_same_cut_topology(const std::vector<Point> &before, const std::vector<Face> &original,
                              const std::vector<Point> &after, const std::vector<Face> &boundary);
 void check_values(const std::vector<double> &values, double low, double high);
