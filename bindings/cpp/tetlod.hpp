@@ -193,6 +193,10 @@ class Context {
   void submit_scalars(const std::string &name, const Source &values) {
     require(tetlod_submit_scalars(handle_, name.c_str(), &values.array));
   }
+  void submit_field(const std::string &name, std::int32_t association, const Source &values) {
+    require(tetlod_submit_field(handle_, name.c_str(), association, &values.array));
+  }
+  void submit_point_flags(const Source &flags) { require(tetlod_submit_point_flags(handle_, &flags.array)); }
   void clear() { require(tetlod_clear(handle_)); }
 
   tetlod_mesh_report check() { return report<tetlod_mesh_report>(tetlod_check); }
@@ -226,6 +230,15 @@ class Context {
     require(tetlod_fetch_boundary(handle_, index_base, &dst.array));
   }
   void fetch_scalars(Destination dst) const { require(tetlod_fetch_scalars(handle_, &dst.array)); }
+  void fetch_field(const std::string &name, Destination dst) const {
+    require(tetlod_fetch_field(handle_, name.c_str(), &dst.array));
+  }
+  void fetch_stencil(std::int32_t index_base, Destination ids, Destination weights) const {
+    require(tetlod_fetch_stencil(handle_, index_base, &ids.array, &weights.array));
+  }
+  void transfer(const Source &original, Destination simplified) {
+    require(tetlod_transfer(handle_, &original.array, &simplified.array));
+  }
   tetlod_run_report fetch_report() const { return report<tetlod_run_report>(tetlod_fetch_report); }
 
   View<double> view_points() const { return view<double>(tetlod_view_points); }

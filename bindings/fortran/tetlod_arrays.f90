@@ -3,8 +3,8 @@
 ! a contiguous one would get a temporary that dies on return, while the library still borrows it.
 module tetlod_arrays
   use, intrinsic :: iso_c_binding, only: c_int32_t, c_int64_t, c_intptr_t, c_loc, c_null_ptr, c_ptr, c_sizeof
-  use, intrinsic :: iso_fortran_env, only: int32, int64, real32, real64
-  use tetlod_types, only: tetlod_array, TETLOD_FLOAT32, TETLOD_FLOAT64, TETLOD_INT32, TETLOD_INT64
+  use, intrinsic :: iso_fortran_env, only: int8, int32, int64, real32, real64
+  use tetlod_types, only: tetlod_array, TETLOD_FLOAT32, TETLOD_FLOAT64, TETLOD_INT32, TETLOD_INT64, TETLOD_UINT8
   implicit none
   private
   public :: array_of, empty_array
@@ -12,7 +12,7 @@ module tetlod_arrays
   ! Of an array (n): n tuples of one component; of an array (k, n): n tuples of k components.
   interface array_of
     module procedure r32_values, r32_tuples, r64_values, r64_tuples, &
-      i32_values, i32_tuples, i64_values, i64_tuples
+      i8_values, i32_values, i32_tuples, i64_values, i64_tuples
   end interface
 
 contains
@@ -91,6 +91,15 @@ contains
     array = shaped(TETLOD_FLOAT64, k, n)
     if (k > 0 .and. n > 0) array = described(TETLOD_FLOAT64, k, n, c_loc(a(1, 1)), c_loc(a(min(2_c_int64_t, k), 1)), &
       c_loc(a(1, min(2_c_int64_t, n))))
+  end function
+
+  function i8_values(a) result(array)
+    integer(int8), intent(in), target :: a(:)
+    type(tetlod_array) :: array
+    integer(c_int64_t) :: n
+    n = size(a, kind=c_int64_t)
+    array = shaped(TETLOD_UINT8, 1_c_int64_t, n)
+    if (n > 0) array = described(TETLOD_UINT8, 1_c_int64_t, n, c_loc(a(1)), c_loc(a(1)), c_loc(a(min(2_c_int64_t, n))))
   end function
 
   function i32_values(a) result(array)

@@ -157,6 +157,19 @@ module tetlod_c
       type(tetlod_array), intent(in) :: values
       integer(c_int32_t) :: status
     end function
+    function c_submit_field(context, name, association, values) result(status) bind(C, name="tetlod_submit_field")
+      import
+      type(c_ptr), value :: context, name
+      integer(c_int32_t), value :: association
+      type(tetlod_array), intent(in) :: values
+      integer(c_int32_t) :: status
+    end function
+    function c_submit_point_flags(context, flags) result(status) bind(C, name="tetlod_submit_point_flags")
+      import
+      type(c_ptr), value :: context
+      type(tetlod_array), intent(in) :: flags
+      integer(c_int32_t) :: status
+    end function
     function c_clear(context) result(status) bind(C, name="tetlod_clear")
       import
       type(c_ptr), value :: context
@@ -224,6 +237,26 @@ module tetlod_c
       import
       type(c_ptr), value :: context
       type(tetlod_array), intent(inout) :: dst
+      integer(c_int32_t) :: status
+    end function
+    function c_fetch_field(context, name, dst) result(status) bind(C, name="tetlod_fetch_field")
+      import
+      type(c_ptr), value :: context, name
+      type(tetlod_array), intent(inout) :: dst
+      integer(c_int32_t) :: status
+    end function
+    function c_fetch_stencil(context, index_base, ids, weights) result(status) bind(C, name="tetlod_fetch_stencil")
+      import
+      type(c_ptr), value :: context
+      integer(c_int32_t), value :: index_base
+      type(tetlod_array), intent(inout) :: ids, weights
+      integer(c_int32_t) :: status
+    end function
+    function c_transfer(context, original, simplified) result(status) bind(C, name="tetlod_transfer")
+      import
+      type(c_ptr), value :: context
+      type(tetlod_array), intent(in) :: original
+      type(tetlod_array), intent(inout) :: simplified
       integer(c_int32_t) :: status
     end function
     function c_fetch_report(context, out) result(status) bind(C, name="tetlod_fetch_report")

@@ -6,12 +6,12 @@ module tetlod_results
   use tetlod_arrays, only: array_of, empty_array
   use tetlod_c
   use tetlod_lifetime, only: conclude
-  use tetlod_submission, only: tetlod_input
+  use tetlod_fields_of_result, only: tetlod_fields
   use tetlod_types, only: tetlod_array, tetlod_error_report, tetlod_run_report, TETLOD_ERR_MEMORY, TETLOD_OK
   implicit none
   private
 
-  type, extends(tetlod_input), public :: tetlod_context
+  type, extends(tetlod_fields), public :: tetlod_context
   contains
     procedure :: run
     procedure :: measure_error

@@ -37,6 +37,10 @@ module tetlod_types
   integer(c_int32_t), parameter, public :: TETLOD_FLOAT32 = 3_c_int32_t
   integer(c_int32_t), parameter, public :: TETLOD_FLOAT64 = 4_c_int32_t
   integer(c_int32_t), parameter, public :: TETLOD_UINT8 = 5_c_int32_t
+  integer(c_int32_t), parameter, public :: TETLOD_POINT_FIELD = 0_c_int32_t
+  integer(c_int32_t), parameter, public :: TETLOD_CELL_FIELD = 1_c_int32_t
+  integer(c_int32_t), parameter, public :: TETLOD_FLAG_KEEP = 1_c_int32_t
+  integer(c_int32_t), parameter, public :: TETLOD_FLAG_LOCK = 2_c_int32_t
   integer(c_int32_t), parameter, public :: TETLOD_PRESET_PAPER = 0_c_int32_t
   integer(c_int32_t), parameter, public :: TETLOD_PRESET_FAST = 1_c_int32_t
   integer(c_int32_t), parameter, public :: TETLOD_PRESET_ACCURATE = 2_c_int32_t

@@ -22,7 +22,7 @@ compare functions "$functions" "$bound"
 for name in $functions; do
   short=${name#tetlod_}
   grep -qE "^ +(subroutine|function) $name\(" "$folder/tetlod.f90" && continue
-  grep -qE "^    (procedure|generic) :: $short( =>|$)" "$folder"/tetlod_{lifetime,settings,submission,results}.f90 && continue
+  grep -qE "^    (procedure|generic) :: $short( =>|$)" "$folder"/tetlod_{lifetime,settings,submission,fields,results}.f90 && continue
   echo "no program can call $name"
   broken=1
 done

@@ -1,0 +1,146 @@
+! Fields beside the one that steers: they ride along with a run, or follow its result later.
+module tetlod_fields_of_result
+  use, intrinsic :: iso_c_binding, only: c_char, c_int32_t, c_loc
+  use, intrinsic :: iso_fortran_env, only: int8, int32, int64, real32, real64
+  use tetlod_arrays, only: array_of
+  use tetlod_c, only: c_fetch_field, c_fetch_stencil, c_submit_field, c_submit_point_flags, c_transfer
+  use tetlod_submission, only: tetlod_input
+  use tetlod_text, only: c_text
+  use tetlod_types, only: tetlod_array
+  implicit none
+  private
+
+  type, extends(tetlod_input), public :: tetlod_fields
+  contains
+    generic :: submit_field => submit_field_r32, submit_field_r64
+    generic :: fetch_field => fetch_field_r32, fetch_field_r64
+    generic :: fetch_stencil => fetch_stencil_i32, fetch_stencil_i64
+    generic :: transfer => transfer_r32, transfer_r64
+    procedure :: submit_point_flags
+    procedure, private :: submit_field_r32, submit_field_r64, fetch_field_r32, fetch_field_r64
+    procedure, private :: fetch_stencil_i32, fetch_stencil_i64, transfer_r32, transfer_r64
+  end type
+
+contains
+
+  ! flags(n): TETLOD_FLAG_KEEP, TETLOD_FLAG_LOCK or 0 a point; borrowed.
+  subroutine submit_point_flags(this, flags, stat, errmsg)
+    class(tetlod_fields), intent(inout) :: this
+    integer(int8), intent(in), target :: flags(:)
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call this%settle(c_submit_point_flags(this%c_handle(), array_of(flags)), stat, errmsg)
+  end subroutine
+
+  ! values(components, n), a tuple a point or a tet by association: TETLOD_POINT_FIELD, TETLOD_CELL_FIELD; borrowed.
+  subroutine submit_field_r32(this, name, association, values, stat, errmsg)
+    class(tetlod_fields), intent(inout) :: this
+    character(len=*), intent(in) :: name
+    integer(c_int32_t), intent(in) :: association
+    real(real32), intent(in), target :: values(:, :)
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    character(kind=c_char), target :: text(len_trim(name) + 1)
+    text = c_text(name)
+    call this%settle(c_submit_field(this%c_handle(), c_loc(text), association, array_of(values)), stat, errmsg)
+  end subroutine
+
+  ! values(components, n), with room for the result's points or tets.
+  subroutine fetch_field_r32(this, name, values, stat, errmsg)
+    class(tetlod_fields), intent(inout) :: this
+    character(len=*), intent(in) :: name
+    real(real32), intent(inout), target :: values(:, :)
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    character(kind=c_char), target :: text(len_trim(name) + 1)
+    type(tetlod_array) :: dst
+    text = c_text(name)
+    dst = array_of(values)
+    call this%settle(c_fetch_field(this%c_handle(), c_loc(text), dst), stat, errmsg)
+  end subroutine
+
+  ! Any point field, original(components, points of the run), to simplified(components, points of the result).
+  subroutine transfer_r32(this, original, simplified, stat, errmsg)
+    class(tetlod_fields), intent(inout) :: this
+    real(real32), intent(in), target :: original(:, :)
+    real(real32), intent(inout), target :: simplified(:, :)
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(tetlod_array) :: dst
+    dst = array_of(simplified)
+    call this%settle(c_transfer(this%c_handle(), array_of(original), dst), stat, errmsg)
+  end subroutine
+
+  ! values(components, n), a tuple a point or a tet by association: TETLOD_POINT_FIELD, TETLOD_CELL_FIELD; borrowed.
+  subroutine submit_field_r64(this, name, association, values, stat, errmsg)
+    class(tetlod_fields), intent(inout) :: this
+    character(len=*), intent(in) :: name
+    integer(c_int32_t), intent(in) :: association
+    real(real64), intent(in), target :: values(:, :)
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    character(kind=c_char), target :: text(len_trim(name) + 1)
+    text = c_text(name)
+    call this%settle(c_submit_field(this%c_handle(), c_loc(text), association, array_of(values)), stat, errmsg)
+  end subroutine
+
+  ! values(components, n), with room for the result's points or tets.
+  subroutine fetch_field_r64(this, name, values, stat, errmsg)
+    class(tetlod_fields), intent(inout) :: this
+    character(len=*), intent(in) :: name
+    real(real64), intent(inout), target :: values(:, :)
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    character(kind=c_char), target :: text(len_trim(name) + 1)
+    type(tetlod_array) :: dst
+    text = c_text(name)
+    dst = array_of(values)
+    call this%settle(c_fetch_field(this%c_handle(), c_loc(text), dst), stat, errmsg)
+  end subroutine
+
+  ! Any point field, original(components, points of the run), to simplified(components, points of the result).
+  subroutine transfer_r64(this, original, simplified, stat, errmsg)
+    class(tetlod_fields), intent(inout) :: this
+    real(real64), intent(in), target :: original(:, :)
+    real(real64), intent(inout), target :: simplified(:, :)
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(tetlod_array) :: dst
+    dst = array_of(simplified)
+    call this%settle(c_transfer(this%c_handle(), array_of(original), dst), stat, errmsg)
+  end subroutine
+
+  ! ids(4, n), counted from index_base (1), and weights(4, n) of each point of the result.
+  subroutine fetch_stencil_i32(this, ids, weights, index_base, stat, errmsg)
+    class(tetlod_fields), intent(inout) :: this
+    integer(int32), intent(inout), target :: ids(:, :)
+    real(real64), intent(inout), target :: weights(:, :)
+    integer, intent(in), optional :: index_base
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(tetlod_array) :: to_ids, to_weights
+    integer(c_int32_t) :: base
+    base = 1
+    if (present(index_base)) base = int(index_base, c_int32_t)
+    to_ids = array_of(ids)
+    to_weights = array_of(weights)
+    call this%settle(c_fetch_stencil(this%c_handle(), base, to_ids, to_weights), stat, errmsg)
+  end subroutine
+
+  ! ids(4, n), counted from index_base (1), and weights(4, n) of each point of the result.
+  subroutine fetch_stencil_i64(this, ids, weights, index_base, stat, errmsg)
+    class(tetlod_fields), intent(inout) :: this
+    integer(int64), intent(inout), target :: ids(:, :)
+    real(real64), intent(inout), target :: weights(:, :)
+    integer, intent(in), optional :: index_base
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(tetlod_array) :: to_ids, to_weights
+    integer(c_int32_t) :: base
+    base = 1
+    if (present(index_base)) base = int(index_base, c_int32_t)
+    to_ids = array_of(ids)
+    to_weights = array_of(weights)
+    call this%settle(c_fetch_stencil(this%c_handle(), base, to_ids, to_weights), stat, errmsg)
+  end subroutine
+end module
