@@ -24,7 +24,8 @@ struct CarriedArray {
 };
 
 // All named arrays of numbers but the steering one. Those of cells keep their type; those of points become means, so
-// integers become doubles. Ghost marks have no meaning any more. A note says which are left out: without a name, or of more than 64 components.
+// integers become doubles. Ghost marks have no meaning any more. A note says which are left out: without a name, or of
+// more than 64 components.
 std::vector<CarriedArray> carried_arrays(vtkUnstructuredGrid &grid, vtkDataArray *steering, const Tets &tets,
                                          std::vector<std::string> &notes);
 
