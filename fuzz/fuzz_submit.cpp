@@ -2,6 +2,7 @@
 // but the first: many inputs a second.
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 #include <iterator>
 #include <limits>
@@ -261,27 +262,28 @@ void fetch_something(Bytes &in) {
   }
 }
 
-/// Structs of callers that are older or newer.
+/// Structs of callers that are older, down to `least` bytes, or newer.
 template <class Struct>
-void fill_struct_of_any_size(const char *what, Bytes &in, tetlod_status (*call)(const tetlod_context *, Struct *)) {
+void fill_struct_of_any_size(const char *what, std::size_t least, Bytes &in,
+                             tetlod_status (*call)(const tetlod_context *, Struct *)) {
   const auto size = std::uint32_t(in.below(2 * sizeof(Struct)));
   alignas(Struct) unsigned char memory[2 * sizeof(Struct)];
   std::memset(memory, 0xa7, sizeof memory);
   std::memcpy(memory, &size, sizeof size);
   const tetlod_status status = call(finished().context(), reinterpret_cast<Struct *>(memory));
-  DEMAND(status == (size < sizeof(Struct) ? TETLOD_ERR_STRUCT_SIZE : TETLOD_OK), "%s of %u bytes: %d", what, size,
-         status);
-  const std::size_t written = status == TETLOD_OK ? sizeof(Struct) : sizeof size;
+  DEMAND(status == (size < least ? TETLOD_ERR_STRUCT_SIZE : TETLOD_OK), "%s of %u bytes: %d", what, size, status);
+  const std::size_t written = status == TETLOD_OK ? std::min<std::size_t>(size, sizeof(Struct)) : sizeof size;
   for (std::size_t i = written; i < sizeof memory; i++)
     DEMAND(memory[i] == 0xa7, "%s: byte %zu is not theirs", what, i);
   DEMAND(std::memcmp(memory, &size, sizeof size) == 0, "%s: struct_size stays", what);
 }
 
 void fetch_structs(Bytes &in) {
-  fill_struct_of_any_size<tetlod_run_report>("the report", in, tetlod_fetch_report);
-  fill_struct_of_any_size<tetlod_array>("a view", in, tetlod_view_tets);
-  fill_struct_of_any_size<tetlod_array>("a view", in, tetlod_view_points);
-  fill_struct_of_any_size<tetlod_array>("a view", in, tetlod_view_scalars);
+  fill_struct_of_any_size<tetlod_run_report>("the report", offsetof(tetlod_run_report, scalar_max) + sizeof(double), in,
+                                             tetlod_fetch_report);
+  fill_struct_of_any_size<tetlod_array>("a view", sizeof(tetlod_array), in, tetlod_view_tets);
+  fill_struct_of_any_size<tetlod_array>("a view", sizeof(tetlod_array), in, tetlod_view_points);
+  fill_struct_of_any_size<tetlod_array>("a view", sizeof(tetlod_array), in, tetlod_view_scalars);
 }
 
 void run(Bytes &in) {

@@ -238,9 +238,9 @@ tetlod_status Session::run(const Disturbance &disturbance) {
   const tetlod_status status = disturbed(disturbance, [&] { return tetlod_run(context_); });
   check_documented("tetlod_run", status,
                    {TETLOD_ERR_STATE, TETLOD_ERR_MEMORY_LIMIT, TETLOD_ERR_CANCELLED, TETLOD_ERR_TIME_LIMIT,
-                    TETLOD_ERR_REMESH, TETLOD_ERR_BACKEND_MISSING, TETLOD_ERR_MESH_EMPTY, TETLOD_ERR_MESH_INDEX,
-                    TETLOD_ERR_MESH_NONFINITE, TETLOD_ERR_MESH_DEGENERATE, TETLOD_ERR_MESH_NONMANIFOLD,
-                    TETLOD_ERR_MESH_INTERSECTING, TETLOD_ERR_MESH_TOO_LARGE});
+                    TETLOD_ERR_REMESH, TETLOD_ERR_MAX_ERROR, TETLOD_ERR_BACKEND_MISSING, TETLOD_ERR_MESH_EMPTY,
+                    TETLOD_ERR_MESH_INDEX, TETLOD_ERR_MESH_NONFINITE, TETLOD_ERR_MESH_DEGENERATE,
+                    TETLOD_ERR_MESH_NONMANIFOLD, TETLOD_ERR_MESH_INTERSECTING, TETLOD_ERR_MESH_TOO_LARGE});
   check_trouble("tetlod_run", status, disturbance);
   const bool counts_fit = mesh.points.size() == mesh.values.size();
   if (!complete())

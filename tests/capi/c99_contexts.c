@@ -25,7 +25,8 @@ static const tetlod_status every_status[] = {
     TETLOD_ERR_MESH_PARTITION,
     TETLOD_ERR_MESH_TOO_LARGE,
     TETLOD_ERR_REMESH,
-    TETLOD_ERR_BACKEND_MISSING, TETLOD_ERR_MAX_ERROR,
+    TETLOD_ERR_BACKEND_MISSING,
+    TETLOD_ERR_MAX_ERROR,
 };
 
 static void check_status_texts(void) {
@@ -274,7 +275,7 @@ static void check_every_option(void) {
     else
       check_real(context, option, &bounds);
   }
-  CHECK(found == TETLOD_OPT_MAX_ERROR);  /* the last one */
+  CHECK(found == TETLOD_OPT_MAX_ERROR); /* the last one */
   tetlod_destroy(context);
 }
 
