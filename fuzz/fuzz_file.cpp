@@ -265,9 +265,14 @@ void read(const std::string &path) {
 
 }  // namespace fuzz
 
-/// VTK's XML reader forgets the array of cell types when a file is broken; nobody else makes such an array.
-extern "C" const char *__lsan_default_suppressions() { return "leak:vtkUnsignedCharArray\n"; }
-extern "C" const char *__lsan_default_options() { return "print_suppressions=0"; }
+/// VTK's XML reader forgets the array of cell types when a file is broken; nobody else makes such an array. Visible, as
+/// the sanitizer may be a shared library.
+extern "C" __attribute__((visibility("default"))) const char *__lsan_default_suppressions() {
+  return "leak:vtkUnsignedCharArray\n";
+}
+extern "C" __attribute__((visibility("default"))) const char *__lsan_default_options() {
+  return "print_suppressions=0";
+}
 
 extern "C" int LLVMFuzzerInitialize(int *, char ***) {
   fuzz::settle();
