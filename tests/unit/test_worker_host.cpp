@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <functional>
 #include <thread>
 
@@ -89,8 +90,10 @@ TEST_F(WorkerTest, HostIgnoresSigchld) {
 TEST_F(WorkerTest, HostReapsEveryChild) {
   struct sigaction reaping = {}, old;
   reaping.sa_handler = [](int) {
+    const int before = errno;
     while (::waitpid(-1, nullptr, WNOHANG) > 0) {
     }
+    errno = before;
   };
   sigaction(SIGCHLD, &reaping, &old);
   use(TETLOD_REMESH);
