@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "face_sweep.hpp"
+
 namespace tetlod {
 
 Triangle sorted_face(const Tet &t, int k) {
@@ -12,36 +14,25 @@ Triangle sorted_face(const Tet &t, int k) {
   return f;
 }
 
-void AdaptiveMesh::connect() {
-  struct Face {
-    Triangle vertices;
-    std::int32_t tet;
-    std::int32_t side;
-  };
-  Array<Face> faces(&memory_);
-  faces.reserve(4 * tets.size());
-  for (std::size_t t = 0; t < tets.size(); t++)
-    for (int k = 0; k < 4; k++) faces.push_back({sorted_face(tets[t], k), std::int32_t(t), k});
-  std::sort(faces.begin(), faces.end(), [](const Face &a, const Face &b) {
-    return a.vertices != b.vertices ? a.vertices < b.vertices : a.tet < b.tet;
-  });
+void AdaptiveMesh::connect(Job &job) {
   neighbours.assign(tets.size(), Tet{-1, -1, -1, -1});
   error.assign(tets.size(), 0.0);
   first_probe.assign(tets.size(), -1);
+  touched_.assign(tets.size(), 0);
   tet_of.assign(points.size(), -1);
   fixed.assign(points.size(), 0);
-  for (std::size_t i = 0; i < faces.size(); i++) {
-    const Face &f = faces[i];
-    if (i + 1 < faces.size() && faces[i + 1].vertices == f.vertices) {
-      const Face &g = faces[++i];
-      neighbours[std::size_t(f.tet)][std::size_t(f.side)] = g.tet;
-      neighbours[std::size_t(g.tet)][std::size_t(g.side)] = f.tet;
-    } else {
-      for (std::int32_t v : f.vertices) fixed[std::size_t(v)] = 1;
-    }
-  }
+  const MeshView view{points, values, tets};
+  FaceSweep(view, {}, job).visit([&](std::size_t, std::int32_t, const FaceUse *first, const FaceUse *last) {
+    if (last - first != 2) return;
+    neighbours[first[0].tet()][first[0].corner()] = std::int32_t(first[1].tet());
+    neighbours[first[1].tet()][first[1].corner()] = std::int32_t(first[0].tet());
+  });
   for (std::size_t t = 0; t < tets.size(); t++)
-    for (std::int32_t v : tets[t]) tet_of[std::size_t(v)] = std::int32_t(t);
+    for (std::size_t k = 0; k < 4; k++) {
+      tet_of[std::size_t(tets[t][k])] = std::int32_t(t);
+      if (neighbours[t][k] >= 0) continue;
+      for (int corner : tet_face[k]) fixed[std::size_t(tets[t][std::size_t(corner)])] = 1;
+    }
   find_touching();
 }
 
@@ -74,24 +65,22 @@ double AdaptiveMesh::total_error() const {
   return sum;
 }
 
-double AdaptiveMesh::error_after(Span<const std::int32_t> old, Span<const Tet> fresh) const {
-  constexpr std::size_t most = 24;
-  TetFrame frames[most];
-  const std::size_t count = std::min(most, fresh.size());
-  for (std::size_t i = 0; i < count; i++) frames[i] = frame(fresh[i]);
+double AdaptiveMesh::error_after(Span<const std::int32_t> old, Span<const Tet> fresh, const TetFrame *frames,
+                                 double limit) const {
   double sum = 0;
   for (std::int32_t t : old)
-    for_probes(t, [&](std::int32_t p) {
+    for (std::int32_t p = first_probe[std::size_t(t)]; p >= 0; p = next_probe[std::size_t(p)]) {
       const Probe &probe = probes[std::size_t(p)];
       double best = -std::numeric_limits<double>::infinity(), r = 0, w[4];
-      for (std::size_t i = 0; i < count && best < 0; i++) {
+      for (std::size_t i = 0; i < fresh.size() && best < 0; i++) {
         const double least = frames[i].weights(probe.point, w);
         if (least <= best) continue;
         best = least;
         r = residual(fresh[i], w, probe);
       }
       sum += r * r;
-    });
+      if (sum > limit) return sum;
+    }
   return sum;
 }
 
@@ -105,6 +94,7 @@ std::int32_t AdaptiveMesh::slot() {
   neighbours.push_back({});
   error.push_back(0);
   first_probe.push_back(-1);
+  touched_.push_back(0);
   return std::int32_t(tets.size()) - 1;
 }
 
@@ -126,6 +116,7 @@ void AdaptiveMesh::replace(Span<const std::int32_t> old, Span<const Tet> fresh, 
     tets[std::size_t(old[i])][0] = -1;
     error[std::size_t(old[i])] = 0;
     first_probe[std::size_t(old[i])] = -1;
+    touch(old[i]);
     free_.push_back(old[i]);
   }
   made.clear();
@@ -165,37 +156,28 @@ void AdaptiveMesh::replace(Span<const std::int32_t> old, Span<const Tet> fresh, 
     }
     put_probe(homeless[i], made[home]);
   }
-  for (std::int32_t t : made) measure(t);
-}
-
-bool AdaptiveMesh::ring(std::int32_t t, std::int32_t a, std::int32_t b, std::size_t most, Array<std::int32_t> &around,
-                        Array<std::int32_t> &vertices) const {
-  around.clear();
-  vertices.clear();
-  std::int32_t from = -1, to = -1;
-  const Tet &first = tets[std::size_t(t)];
-  for (std::int32_t v : first)
-    if (v != a && v != b) (from < 0 ? from : to) = v;
-  if (det(points[std::size_t(a)], points[std::size_t(b)], points[std::size_t(from)], points[std::size_t(to)]) < 0)
-    std::swap(from, to);
-  std::int32_t here = t;
-  do {
-    if (around.size() == most) return false;
-    around.push_back(here);
-    vertices.push_back(from);
-    const Tet &tet = tets[std::size_t(here)];
-    const auto side = std::size_t(std::find(tet.begin(), tet.end(), from) - tet.begin());
-    here = neighbours[std::size_t(here)][side];
-    if (here < 0) return false;
-    from = to;
-    for (std::int32_t v : tets[std::size_t(here)])
-      if (v != a && v != b && v != from) to = v;
-  } while (here != t);
-  return true;
+  for (std::int32_t t : made) {
+    touch(t);
+    measure(t);
+  }
 }
 
 void AdaptiveMesh::star(std::int32_t v, Array<std::int32_t> &around) const {
   tets_with(tet_of[std::size_t(v)], &v, 1, around);
+}
+
+bool AdaptiveMesh::star(std::int32_t v, Cavity &around) const {
+  around.clear();
+  around.push(tet_of[std::size_t(v)]);
+  for (std::size_t i = 0; i < around.size(); i++) {
+    const Tet &tet = tets[std::size_t(around[i])];
+    for (std::size_t k = 0; k < 4; k++) {
+      const std::int32_t n = neighbours[std::size_t(around[i])][k];
+      if (n < 0 || tet[k] == v || around.has(n)) continue;
+      if (!around.push(n)) return false;
+    }
+  }
+  return true;
 }
 
 void AdaptiveMesh::tets_with(std::int32_t t, const std::int32_t *simplex, std::size_t size,

@@ -3,7 +3,9 @@
 #pragma once
 #include <cstdint>
 
+#include "few.hpp"
 #include "geometry.hpp"
+#include "job.hpp"
 #include "mesh.hpp"
 
 namespace tetlod {
@@ -41,6 +43,18 @@ struct TetFrame {
   }
 };
 
+/// Smallest volume of a tet, over the cube of its longest edge.
+constexpr double least_shape = 1e-5;
+
+/// Whether (a, b, c, d) is positive, and no sliver worse than `limit`.
+inline bool is_sound(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &d, double limit) {
+  const double volume = det(a, b, c, d);
+  if (!(volume > 0)) return false;
+  const double longest =
+      std::max({length2(b - a), length2(c - a), length2(d - a), length2(c - b), length2(d - b), length2(d - c)});
+  return volume * volume > limit * limit * longest * longest * longest;
+}
+
 /// What AdaptiveMesh::fixed says of a vertex beside 0 and 1: on the boundary, where the solid touches itself.
 constexpr std::uint8_t touching = 2;
 
@@ -59,6 +73,7 @@ class AdaptiveMesh {
         next_probe(&memory),
         tet_of(&memory),
         memory_(memory),
+        touched_(&memory),
         free_(&memory),
         outer_(&memory) {}
 
@@ -75,7 +90,7 @@ class AdaptiveMesh {
   Array<std::int32_t> tet_of;                   ///< one of the tets of each vertex
 
   /// Finds the neighbours of `tets`, which has no free slot yet; all else of a tet is empty.
-  void connect();
+  void connect(Job &job);
 
   std::size_t count() const { return tets.size() - free_.size(); }
   bool alive(std::int32_t t) const { return tets[std::size_t(t)][0] >= 0; }
@@ -86,6 +101,10 @@ class AdaptiveMesh {
   TetFrame frame(std::int32_t t) const { return {corner(t, 0), corner(t, 1), corner(t, 2), corner(t, 3)}; }
   TetFrame frame(const Tet &t) const {
     return {points[std::size_t(t[0])], points[std::size_t(t[1])], points[std::size_t(t[2])], points[std::size_t(t[3])]};
+  }
+  bool is_sound(const Tet &t, double limit) const {
+    return tetlod::is_sound(points[std::size_t(t[0])], points[std::size_t(t[1])], points[std::size_t(t[2])],
+                            points[std::size_t(t[3])], limit);
   }
   double residual(const Tet &t, const double w[4], const Probe &probe) const {
     double sum = -probe.value;
@@ -106,18 +125,30 @@ class AdaptiveMesh {
   void measure(std::int32_t t);
   double total_error() const;
 
-  /// What replace() would make of the error: the probes of the old tets in the fresh ones.
-  double error_after(Span<const std::int32_t> old, Span<const Tet> fresh) const;
+  /// What replace() would make of the error: the probes of the old tets in the fresh ones, whose frames are given. Not
+  /// summed further than `limit`.
+  double error_after(Span<const std::int32_t> old, Span<const Tet> fresh, const TetFrame *frames, double limit) const;
+
+  /// From here on touched() says of tets whether something has become of one of them.
+  void begin_batch() { batch_++; }
+  void touch(std::int32_t t) { touched_[std::size_t(t)] = batch_; }
+  bool touched(Span<const std::int32_t> some) const {
+    return std::any_of(some.begin(), some.end(), [&](std::int32_t t) { return touched_[std::size_t(t)] == batch_; });
+  }
 
   /// `fresh` fill what `old` filled; the faces around stay, or, on the boundary, are divided. made: where fresh went.
   void replace(Span<const std::int32_t> old, Span<const Tet> fresh, Array<std::int32_t> &made);
 
   /// The tets around an inner edge (a, b) of tet t and the ring of vertices, ring[i] and ring[i + 1] in tet i, so that
-  /// (a, b, ring[i], ring[i + 1]) is positive. False on the boundary and where there are more than `most`.
-  bool ring(std::int32_t t, std::int32_t a, std::int32_t b, std::size_t most, Array<std::int32_t> &around,
-            Array<std::int32_t> &vertices) const;
+  /// (a, b, ring[i], ring[i + 1]) is positive. False on the boundary and where there are more than the lists hold.
+  /// Or where visit(tet) says so of a tet.
+  template <std::size_t most, class Visit>
+  bool ring(std::int32_t t, std::int32_t a, std::int32_t b, Few<std::int32_t, most> &around,
+            Few<std::int32_t, most> &vertices, const Visit &visit) const;
   /// All tets of a vertex.
   void star(std::int32_t v, Array<std::int32_t> &around) const;
+  /// False where there are more than a cavity holds.
+  bool star(std::int32_t v, Cavity &around) const;
   /// All tets with the `size` vertices of a simplex, of which t is one.
   void tets_with(std::int32_t t, const std::int32_t *simplex, std::size_t size, Array<std::int32_t> &around) const;
 
@@ -131,9 +162,36 @@ class AdaptiveMesh {
   void find_touching();
 
   Memory &memory_;
+  Array<std::uint32_t> touched_;  // the batch in which each tet changed last
+  std::uint32_t batch_ = 0;
   Array<std::int32_t> free_;
   Array<OuterFace> outer_;
 };
+
+template <std::size_t most, class Visit>
+bool AdaptiveMesh::ring(std::int32_t t, std::int32_t a, std::int32_t b, Few<std::int32_t, most> &around,
+                        Few<std::int32_t, most> &vertices, const Visit &visit) const {
+  around.clear();
+  vertices.clear();
+  std::int32_t from = -1, to = -1;
+  for (std::int32_t v : tets[std::size_t(t)])
+    if (v != a && v != b) (from < 0 ? from : to) = v;
+  if (det(points[std::size_t(a)], points[std::size_t(b)], points[std::size_t(from)], points[std::size_t(to)]) < 0)
+    std::swap(from, to);
+  std::int32_t here = t;
+  do {
+    if (!visit(here) || !around.push(here)) return false;
+    vertices.push(from);
+    const Tet &tet = tets[std::size_t(here)];
+    const auto side = std::size_t(std::find(tet.begin(), tet.end(), from) - tet.begin());
+    here = neighbours[std::size_t(here)][side];
+    if (here < 0) return false;
+    from = to;
+    for (std::int32_t v : tets[std::size_t(here)])
+      if (v != a && v != b && v != from) to = v;
+  } while (here != t);
+  return true;
+}
 
 /// The vertices of the face opposite corner k, ascending.
 Triangle sorted_face(const Tet &t, int k);

@@ -31,7 +31,7 @@ constexpr int most_rounds = 6;
 constexpr double field_weight = 0.15;
 
 /// A surface has fewer triangles to lose than its solid has tets, and less to lose them for.
-inline double boundary_share(double ratio) { return std::pow(ratio, 0.66); }
+inline double boundary_share(double ratio) { return std::pow(ratio, 0.8); }
 
 inline Budget budget_of(double ratio, const Report &report) {
   Budget budget;

@@ -7,6 +7,7 @@
 #include "collapse_rules.hpp"
 #include "edge_queue.hpp"
 #include "field_quadric.hpp"
+#include "half_edges.hpp"
 #include "lindstrom_turk.hpp"
 #include "surface_topology.hpp"
 
@@ -56,6 +57,7 @@ class Decimator {
     for (std::int64_t step = 0; edges_ > target && !queue_.empty(); step++) {
       const OpenMesh::EdgeHandle edge(queue_.top());
       if (by_length_ && queue_.cost(edge.idx()) > length_limit * length_limit) break;
+      if (!quadrics_.empty() && !by_length_ && is_dearer_now(edge)) continue;
       queue_.remove(edge.idx());
       try_collapse(edge);
       if (step % 64 == 0) job_.poll(double(start - edges_) / double(std::max<std::int64_t>(start - target, 1)));
@@ -136,11 +138,12 @@ class Decimator {
     stamp_.assign(mesh_.n_edges(), 0);
   }
 
+  /// Of the faces that are left; again when they are half as many, or it would be mostly empty.
   void build_tree() {
-    Array<Box> boxes(&job_.memory);
-    boxes.reserve(triangle_.size());
-    for (const Triangle &t : triangle_) boxes.push_back(box_of(point_, t));
-    tree_.build(std::move(boxes), 4, [this] { job_.poll(0); });
+    Array<Box> boxes(triangle_.size(), &job_.memory);
+    for (auto f = mesh_.faces_sbegin(); f != mesh_.faces_end(); ++f) at(boxes, *f) = box_of(point_, at(triangle_, *f));
+    tree_.build(std::move(boxes), 4, [this] { job_.poll(0.5); });
+    edges_in_tree_ = edges_;
   }
 
   // ---- Geometry of what is there
@@ -151,40 +154,13 @@ class Decimator {
   void update_sums(VertexHandle v) {
     VolumeSums volume;
     LinkSums link;
-    for_each_around(v, [&](HalfedgeHandle h) {
+    for_each_around(mesh_, v, [&](HalfedgeHandle h) {
       volume.add(at(plane_, mesh_.face_handle(h)));
       link.add(point(mesh_.to_vertex_handle(h)));
     });
     at(volume_, v) = volume;
     at(link_, v) = link;
   }
-
-  /// The next half-edge that leaves the same vertex, counter-clockwise.
-  HalfedgeHandle next_around(HalfedgeHandle h) const {
-    return mesh_.opposite_halfedge_handle(mesh_.prev_halfedge_handle(h));
-  }
-
-  /// The half-edges that leave v; stops when visit returns true, and says whether it did.
-  template <class Visit>
-  bool any_around(VertexHandle v, const Visit &visit) const {
-    const HalfedgeHandle first = mesh_.halfedge_handle(v);
-    HalfedgeHandle h = first;
-    do {
-      if (visit(h)) return true;
-      h = next_around(h);
-    } while (h != first);
-    return false;
-  }
-
-  template <class Visit>
-  void for_each_around(VertexHandle v, const Visit &visit) const {
-    any_around(v, [&](HalfedgeHandle h) {
-      visit(h);
-      return false;
-    });
-  }
-
-  VertexHandle apex(HalfedgeHandle h) const { return mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h)); }
 
   // ---- Placement and cost
 
@@ -199,7 +175,7 @@ class Decimator {
     const double length2_e = length2(point(to) - point(from));
     LinkSums link = at(link_, from);
     link.add(at(link_, to));
-    for (VertexHandle v : {from, to, apex(h), apex(o)}) link.add(point(v), -1);
+    for (VertexHandle v : {from, to, apex(mesh_, h), apex(mesh_, o)}) link.add(point(v), -1);
     VolumeSums volume = at(volume_, from);
     volume.add(at(volume_, to));
     for (HalfedgeHandle side : {h, o}) volume.add(at(plane_, mesh_.face_handle(side)), -1);
@@ -240,12 +216,19 @@ class Decimator {
       queue_.remove(edge.idx());
   }
 
+  /// Costs around a collapse that its quadrics leave alone are brought up to date when their turn comes.
+  bool is_dearer_now(OpenMesh::EdgeHandle edge) {
+    const double cost = queue_.cost(edge.idx());
+    update_cost(edge);
+    return queue_.empty() || queue_.top() != edge.idx() || queue_.cost(edge.idx()) > 1.5 * cost;
+  }
+
   // ---- Admissibility
 
   /// The link condition, and no pillow of two triangles: the surface stays a manifold of the same topology.
   bool breaks_topology(HalfedgeHandle h) {
     const HalfedgeHandle o = mesh_.opposite_halfedge_handle(h);
-    return at(link_, apex(h)).count <= 3 || at(link_, apex(o)).count <= 3 || !mesh_.is_collapse_ok(h);
+    return at(link_, apex(mesh_, h)).count <= 3 || at(link_, apex(mesh_, o)).count <= 3 || !mesh_.is_collapse_ok(h);
   }
 
   /// `to`, where the surface touches itself, would get an edge that another sheet has or may get: to a vertex that is
@@ -257,9 +240,9 @@ class Decimator {
       const VertexHandle w = mesh_.to_vertex_handle(out);
       return w != to && at(id_, w) == at(id_, to);
     };
-    return any_around(from, [&](HalfedgeHandle out) {
+    return any_around(mesh_, from, [&](HalfedgeHandle out) {
       const VertexHandle v = mesh_.to_vertex_handle(out);
-      return v != to && (at(touching_, v) || any_around(v, is_other_sheet));
+      return v != to && (at(touching_, v) || any_around(mesh_, v, is_other_sheet));
     });
   }
 
@@ -272,9 +255,9 @@ class Decimator {
     for (HalfedgeHandle side : {h, o}) star_.old_faces.push_back(mesh_.face_handle(side).idx());
     // Around `to` from behind the left triangle to the right one, then around `from`.
     for (HalfedgeHandle side : {o, h}) {
-      HalfedgeHandle spoke = next_around(side);
+      HalfedgeHandle spoke = next_around(mesh_, side);
       for (HalfedgeHandle last = mesh_.next_halfedge_handle(mesh_.opposite_halfedge_handle(side)); spoke != last;
-           spoke = next_around(spoke))
+           spoke = next_around(mesh_, spoke))
         add_to_star(spoke);
     }
     if (const VertexHandle to = mesh_.to_vertex_handle(h); at(locked_, to)) star_.centre_id = at(id_, to);
@@ -327,26 +310,32 @@ class Decimator {
     mesh_.collapse(h);
     edges_ -= 3;
     update_around(to);
+    if (edges_ < edges_in_tree_ / 2) build_tree();
   }
 
   void update_around(VertexHandle centre) {
-    for_each_around(centre, [&](HalfedgeHandle h) { update_face(h); });
+    for_each_around(mesh_, centre, [&](HalfedgeHandle h) { update_face(h); });
     update_sums(centre);
-    for_each_around(centre, [&](HalfedgeHandle h) { update_sums(mesh_.to_vertex_handle(h)); });
+    for_each_around(mesh_, centre, [&](HalfedgeHandle h) { update_sums(mesh_.to_vertex_handle(h)); });
     now_++;
-    for_each_around(centre, [&](HalfedgeHandle h) { update_costs_at(mesh_.to_vertex_handle(h)); });
+    if (quadrics_.empty() || by_length_) {
+      for_each_around(mesh_, centre, [&](HalfedgeHandle h) { update_costs_at(mesh_.to_vertex_handle(h)); });
+    } else {
+      update_costs_at(centre);
+    }
   }
 
   void update_face(HalfedgeHandle spoke) {
     const OpenMesh::FaceHandle face = mesh_.face_handle(spoke);
-    const Triangle t{mesh_.from_vertex_handle(spoke).idx(), mesh_.to_vertex_handle(spoke).idx(), apex(spoke).idx()};
+    const Triangle t{mesh_.from_vertex_handle(spoke).idx(), mesh_.to_vertex_handle(spoke).idx(),
+                     apex(mesh_, spoke).idx()};
     at(triangle_, face) = t;
     at(plane_, face) = plane_of(point(t[0]), point(t[1]), point(t[2]));
     tree_.refit(face.idx(), box_of(point_, t));
   }
 
   void update_costs_at(VertexHandle v) {
-    for_each_around(v, [&](HalfedgeHandle h) {
+    for_each_around(mesh_, v, [&](HalfedgeHandle h) {
       const OpenMesh::EdgeHandle edge = mesh_.edge_handle(h);
       if (at(stamp_, edge) == now_) return;
       at(stamp_, edge) = now_;
@@ -358,7 +347,7 @@ class Decimator {
   Job &job_;
   double lambda_;
   bool by_length_ = false;
-  std::int64_t edges_ = 0;
+  std::int64_t edges_ = 0, edges_in_tree_ = 0;
   MemoryCharge charge_;
   Mesh mesh_;
   Array<Vec3> point_{&job_.memory};

@@ -1,47 +1,44 @@
 #include "flip_tets.hpp"
 
-#include <cmath>
+#include "sweep.hpp"
 
 namespace tetlod {
 
 namespace {
 
-constexpr std::size_t longest_ring = 5;
+constexpr std::size_t longest_ring = 5, most_fresh = 2 * (longest_ring - 2);
 /// Tets with less than this part of the mean error are left alone, but for what saves tets.
 constexpr double quiet = 0.02;
 
-class Flipper {
- public:
-  Flipper(double price, Job &job, AdaptiveMesh &mesh)
-      : price_(price),
-        job_(job),
-        mesh_(mesh),
-        around_(&job.memory),
-        ring_(&job.memory),
-        fresh_(&job.memory),
-        best_(&job.memory),
-        made_(&job.memory) {}
+struct Flip {
+  Few<std::int32_t, longest_ring> old;
+  Few<Tet, most_fresh> fresh;
+};
 
-  std::int64_t sweep() {
-    const double least = quiet * mesh_.total_error() / double(mesh_.count());
-    std::int64_t taken = 0;
-    const std::size_t count = mesh_.tets.size();
-    for (std::size_t t = 0; t < count; t++) {
-      if (t % 256 == 0) job_.poll(double(t) / double(count));
-      if (mesh_.alive(std::int32_t(t)) && mesh_.error[t] >= least) taken += improve(std::int32_t(t));
-    }
-    return taken;
+/// Looks for the flips that pay; of the mesh as it is.
+class FlipFinder {
+ public:
+  FlipFinder(double price, const AdaptiveMesh &mesh) : price_(price), mesh_(mesh) {}
+
+  /// The first kind of flip around t that pays, in its best form.
+  bool find(std::int32_t t, Flip &flip) const {
+    if (!mesh_.alive(t)) return false;
+    const Tet &tet = mesh_.tets[std::size_t(t)];
+    for (int k = 0; k < 4; k++)
+      if (remove_face(t, k, flip)) return true;
+    for (std::size_t i = 0; i < 4; i++)
+      for (std::size_t j = i + 1; j < 4; j++)
+        if (remove_edge(t, tet[i], tet[j], flip)) return true;
+    return false;
   }
 
  private:
-  bool improve(std::int32_t t) {
-    const Tet tet = mesh_.tets[std::size_t(t)];
-    for (int k = 0; k < 4; k++)
-      if (remove_face(t, k)) return true;
-    for (std::size_t i = 0; i < 4; i++)
-      for (std::size_t j = i + 1; j < 4; j++)
-        if (remove_edge(t, tet[i], tet[j])) return true;
-    return false;
+  using FreshTets = Few<Tet, most_fresh>;
+
+  /// What two tets share is the turn of the one with the larger error.
+  bool is_before(std::int32_t t, std::int32_t other) const {
+    const double a = mesh_.error[std::size_t(t)], b = mesh_.error[std::size_t(other)];
+    return a != b ? a > b : t < other;
   }
 
   double error_of(Span<const std::int32_t> old) const {
@@ -50,107 +47,93 @@ class Flipper {
     return sum;
   }
 
-  /// Considers fresh_ in place of around_.
-  void weigh(double old_error) {
-    for (const Tet &t : fresh_)
-      if (!is_sound(mesh_, t, least_shape)) return;
-    const double added = double(fresh_.size()) - double(around_.size());
-    const double change = mesh_.error_after(around_, fresh_) - old_error + price_ * added;
-    if (change < change_) {
-      change_ = change;
-      best_.assign(fresh_.begin(), fresh_.end());
+  /// Whether `fresh` in place of flip.old is better than the best change so far.
+  bool is_better(const Flip &flip, const FreshTets &fresh, double old_error, double &best) const {
+    TetFrame frames[most_fresh];
+    for (std::size_t i = 0; i < fresh.size(); i++) {
+      if (!mesh_.is_sound(fresh[i], least_shape)) return false;
+      frames[i] = mesh_.frame(fresh[i]);
     }
-  }
-
-  void begin(double old_error) {
-    // Not for a gain of rounding: flips would go round in circles.
-    change_ = -1e-6 * (old_error + price_) - 1e-300;
-    best_.clear();
-  }
-
-  bool take() {
-    if (best_.empty()) return false;
-    mesh_.replace(around_, best_, made_);
+    const double cost = price_ * (double(fresh.size()) - double(flip.old.size())) - old_error;
+    const double change = mesh_.error_after(flip.old, fresh, frames, best - cost) + cost;
+    if (!(change < best)) return false;
+    best = change;
     return true;
   }
 
+  /// Not for a gain of rounding: flips would go round in circles.
+  double least_gain(double old_error) const { return -1e-6 * (old_error + price_) - 1e-300; }
+
   /// The face opposite corner k, between two tets, becomes the edge between their far corners.
-  bool remove_face(std::int32_t t, int k) {
+  bool remove_face(std::int32_t t, int k, Flip &flip) const {
     const std::int32_t n = mesh_.neighbours[std::size_t(t)][std::size_t(k)];
-    if (n < 0) return false;
+    if (n < 0 || is_before(n, t)) return false;
     const Tet &tet = mesh_.tets[std::size_t(t)];
     const double old_error = mesh_.error[std::size_t(t)] + mesh_.error[std::size_t(n)];
     if (old_error <= price_) return false;
     std::int32_t far = -1;
     for (std::size_t i = 0; i < 4; i++)
       if (mesh_.neighbours[std::size_t(n)][i] == t) far = mesh_.tets[std::size_t(n)][i];
-    around_.clear();
-    around_.push_back(t);
-    around_.push_back(n);
-    fresh_.clear();
+    flip.old.clear();
+    flip.old.push(t);
+    flip.old.push(n);
+    flip.fresh.clear();
     const std::int32_t near = tet[std::size_t(k)];
     // Seen from `far`, outside of t, the face is counter-clockwise.
     for (int i = 0; i < 3; i++) {
       const std::int32_t a = tet[std::size_t(tet_face[k][i])], b = tet[std::size_t(tet_face[k][(i + 1) % 3])];
-      fresh_.push_back({near, a, b, far});
+      flip.fresh.push({near, a, b, far});
     }
-    begin(old_error);
-    weigh(old_error);
-    return take();
+    double best = least_gain(old_error);
+    return is_better(flip, flip.fresh, old_error, best);
   }
 
   /// An inner edge (a, b) gives way to triangles of its ring.
-  bool remove_edge(std::int32_t t, std::int32_t a, std::int32_t b) {
-    if (!mesh_.ring(t, a, b, longest_ring, around_, ring_) || around_.size() < 3) return false;
-    for (std::int32_t other : around_)
-      if (other < t && mesh_.error[std::size_t(other)] >= mesh_.error[std::size_t(t)]) return false;  // its turn
-    const double old_error = error_of(around_);
-    begin(old_error);
-    const std::size_t n = ring_.size();
-    if (n == 3) {
-      fan(a, b, 0);
-      weigh(old_error);
-    } else {
-      for (std::size_t apex = 0; apex < (n == 4 ? 2 : n); apex++) {
-        fan(a, b, apex);
-        weigh(old_error);
-      }
+  bool remove_edge(std::int32_t t, std::int32_t a, std::int32_t b, Flip &flip) const {
+    Few<std::int32_t, longest_ring> ring;
+    if (!mesh_.ring(t, a, b, flip.old, ring, [&](std::int32_t other) { return !is_before(other, t); })) return false;
+    if (ring.size() < 3) return false;
+    const double old_error = error_of(flip.old);
+    double best = least_gain(old_error);
+    bool found = false;
+    const std::size_t n = ring.size(), ways = n == 3 ? 1 : n == 4 ? 2 : n;
+    for (std::size_t apex = 0; apex < ways; apex++) {
+      const FreshTets fresh = fan(ring, a, b, apex);
+      if (!is_better(flip, fresh, old_error, best)) continue;
+      flip.fresh = fresh;
+      found = true;
     }
-    return take();
+    return found;
   }
 
   /// The ring's triangles from one of its vertices, each with a tet to either side.
-  void fan(std::int32_t a, std::int32_t b, std::size_t apex) {
-    fresh_.clear();
-    const std::size_t n = ring_.size();
+  static FreshTets fan(const Few<std::int32_t, longest_ring> &ring, std::int32_t a, std::int32_t b, std::size_t apex) {
+    FreshTets fresh;
+    const std::size_t n = ring.size();
     for (std::size_t i = 1; i + 1 < n; i++) {
-      const std::int32_t p = ring_[apex], q = ring_[(apex + i) % n], r = ring_[(apex + i + 1) % n];
-      fresh_.push_back({p, q, r, b});
-      fresh_.push_back({p, r, q, a});
+      const std::int32_t p = ring[apex], q = ring[(apex + i) % n], r = ring[(apex + i + 1) % n];
+      fresh.push({p, q, r, b});
+      fresh.push({p, r, q, a});
     }
+    return fresh;
   }
 
   double price_;
-  double change_ = 0;
-  Job &job_;
-  AdaptiveMesh &mesh_;
-  Array<std::int32_t> around_, ring_;
-  Array<Tet> fresh_, best_;
-  Array<std::int32_t> made_;
+  const AdaptiveMesh &mesh_;
 };
 
 }  // namespace
 
-bool is_sound(const AdaptiveMesh &mesh, const Tet &t, double limit) {
-  const Vec3 &a = mesh.points[std::size_t(t[0])], &b = mesh.points[std::size_t(t[1])],
-             &c = mesh.points[std::size_t(t[2])], &d = mesh.points[std::size_t(t[3])];
-  const double volume = det(a, b, c, d);
-  if (!(volume > 0)) return false;
-  const double longest =
-      std::max({length2(b - a), length2(c - a), length2(d - a), length2(c - b), length2(d - b), length2(d - c)});
-  return volume > limit * longest * std::sqrt(longest);
+std::int64_t flip_tets(double price, Job &job, AdaptiveMesh &mesh) {
+  const double least = quiet * mesh.total_error() / double(mesh.count());
+  Array<std::int32_t> items(&job.memory), made(&job.memory);
+  for (std::size_t t = 0; t < mesh.tets.size(); t++)
+    if (mesh.alive(std::int32_t(t)) && mesh.error[t] >= least) items.push_back(std::int32_t(t));
+  const FlipFinder finder(price, mesh);
+  return sweep<Flip>(
+      items, batches_of(items.size(), 512, job.memory), job, mesh,
+      [&](std::int32_t t, Flip &flip) { return finder.find(t, flip); },
+      [&](const Flip &flip) { mesh.replace(flip.old, flip.fresh, made); });
 }
-
-std::int64_t flip_tets(double price, Job &job, AdaptiveMesh &mesh) { return Flipper(price, job, mesh).sweep(); }
 
 }  // namespace tetlod

@@ -5,11 +5,6 @@
 
 namespace tetlod {
 
-/// Smallest volume of a tet, over the cube of its longest edge.
-constexpr double least_shape = 1e-5;
-/// Whether t is positive, and no sliver worse than `limit`.
-bool is_sound(const AdaptiveMesh &mesh, const Tet &t, double limit);
-
 /// One sweep of face removals (2-3) and edge removals (3-2, 4-4, 5-6) over the tets that have an error. A flip is taken
 /// when it lowers the sum of squares by more than `price` for every tet that it adds; one that saves a tet may raise it
 /// by as much. Returns how many were taken.

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "flip_tets.hpp"
-
 namespace tetlod {
 
 namespace {
@@ -92,7 +90,7 @@ bool insert_vertex(std::int32_t t, const Vec3 &p, double value, double snap, dou
     return false;
   mesh.points.push_back(size == 4 ? p : sum / total);
   for (const Tet &part : fresh)
-    if (!is_sound(mesh, part, least)) {
+    if (!mesh.is_sound(part, least)) {
       mesh.points.pop_back();
       return false;
     }

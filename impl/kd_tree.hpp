@@ -26,7 +26,8 @@ class KdTree {
  public:
   explicit KdTree(Memory &memory) : boxes_(&memory), items_(&memory), nodes_(&memory), leaf_of_(&memory) {}
 
-  /// Splits at the median of the boxes' centres along the longest extent, until at most `leaf` items are left.
+  /// Splits at the median of the boxes' centres along the longest extent, until at most `leaf` items are left. What has
+  /// an empty box is in no answer.
   void build(Array<Box> &&boxes, std::int64_t leaf) {
     build(std::move(boxes), leaf, [] {});
   }
@@ -35,8 +36,11 @@ class KdTree {
   template <class Poll>
   void build(Array<Box> &&boxes, std::int64_t leaf, const Poll &poll) {
     boxes_ = std::move(boxes);
-    items_.resize(boxes_.size());
-    for (std::size_t i = 0; i < items_.size(); i++) items_[i] = std::int32_t(i);
+    items_.clear();
+    items_.reserve(boxes_.size());
+    for (std::size_t i = 0; i < boxes_.size(); i++)
+      if (boxes_[i].low.x <= boxes_[i].high.x) items_.push_back(std::int32_t(i));
+    leaf_of_.assign(boxes_.size(), -1);
     nodes_.clear();
     if (!items_.empty()) split(0, std::int32_t(items_.size()), -1, std::int32_t(std::max<std::int64_t>(leaf, 1)), poll);
   }
@@ -144,7 +148,6 @@ class KdTree {
     nodes_.push_back({Box(), begin, end, 0, parent});
     nodes_[std::size_t(self)].box = box_below(self);
     if (end - begin <= leaf) {
-      if (leaf_of_.size() != items_.size()) leaf_of_.resize(items_.size());
       for (std::int32_t i = begin; i < end; i++) leaf_of_[std::size_t(items_[std::size_t(i)])] = self;
       return self;
     }

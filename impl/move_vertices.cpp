@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "flip_tets.hpp"
+#include "sweep.hpp"
 
 namespace tetlod {
 
@@ -12,6 +12,8 @@ namespace {
 constexpr double quiet = 0.05;
 constexpr double damping = 1e-3;
 constexpr double lengths[] = {1, 0.4, 0.15};
+/// Of its error a star must not keep more.
+constexpr double least_part = 0.999;
 
 /// x of the symmetric positive definite a x = b; false where it is not.
 bool solve_cholesky(double a[4][4], double b[4]) {
@@ -38,134 +40,177 @@ bool solve_cholesky(double a[4][4], double b[4]) {
   return std::isfinite(b[0] + b[1] + b[2] + b[3]);
 }
 
-class Mover {
- public:
-  Mover(Job &job, AdaptiveMesh &mesh)
-      : job_(job), mesh_(mesh), star_(&job.memory), frames_(&job.memory), homes_(&job.memory) {}
+/// Where a probe will be.
+struct Home {
+  std::int32_t probe, tet;
+};
 
-  std::int64_t sweep(std::size_t first) {
-    const double least = quiet * 4 * mesh_.total_error() / double(mesh_.points.size());
-    std::int64_t moved = 0;
-    for (std::size_t v = first; v < mesh_.points.size(); v++) {
-      if (v % 64 == 0) job_.poll(double(v) / double(mesh_.points.size()));
-      if (!mesh_.fixed[v] && !mesh_.kept[v]) moved += improve(std::int32_t(v), least);
+struct Move {
+  using allocator_type = std::pmr::polymorphic_allocator<Home>;
+  explicit Move(allocator_type memory) : homes(memory) {}
+
+  std::int32_t vertex = -1;
+  Vec3 point{0};
+  double value = 0;
+  Cavity old;                    ///< its star
+  double error[largest_cavity];  ///< of its tets afterwards
+  Array<Home> homes;
+};
+
+/// The tets around a vertex as they would be with it at another point, with another value.
+class MovedStar {
+ public:
+  MovedStar(const AdaptiveMesh &mesh, const Move &move) : mesh_(mesh), star_(move.old) {
+    for (std::size_t i = 0; i < star_.size() && positive_; i++) {
+      const Tet &tet = mesh.tets[std::size_t(star_[i])];
+      const auto corner = std::size_t(std::find(tet.begin(), tet.end(), move.vertex) - tet.begin());
+      Vec3 p[4];
+      for (std::size_t k = 0; k < 4; k++) {
+        p[k] = k == corner ? move.point : mesh.points[std::size_t(tet[k])];
+        values_[i][k] = k == corner ? move.value : mesh.values[std::size_t(tet[k])];
+      }
+      positive_ = is_sound(p[0], p[1], p[2], p[3], least_shape);
+      frames_[i] = TetFrame(p[0], p[1], p[2], p[3]);
     }
-    return moved;
+  }
+
+  bool is_positive() const { return positive_; }
+
+  /// Whether the sum of squares is less than `limit`; the errors and homes are written to `move` then. Most probes stay
+  /// in their tets.
+  bool is_less(double limit, Move &move) const {
+    move.homes.clear();
+    std::fill(move.error, move.error + star_.size(), 0.0);
+    double sum = 0;
+    for (std::size_t i = 0; i < star_.size(); i++)
+      for (std::int32_t p = mesh_.first_probe[std::size_t(star_[i])]; p >= 0; p = mesh_.next_probe[std::size_t(p)]) {
+        double w[4];
+        const std::size_t home = locate(mesh_.probes[std::size_t(p)].point, i, w);
+        double r = -mesh_.probes[std::size_t(p)].value;
+        for (int k = 0; k < 4; k++) r += w[k] * values_[home][k];
+        sum += r * r;
+        if (!(sum < limit)) return false;
+        move.error[home] += r * r;
+        move.homes.push_back({p, star_[home]});
+      }
+    return true;
   }
 
  private:
-  struct Home {
-    std::int32_t probe;
-    std::size_t tet;  // in star_
-  };
-
-  bool improve(std::int32_t v, double least) {
-    mesh_.star(v, star_);
-    double old_error = 0;
-    for (std::int32_t t : star_) old_error += mesh_.error[std::size_t(t)];
-    if (!(old_error > least)) return false;
-    double step[4];
-    if (!gauss_newton(v, step)) return false;
-    const Vec3 old_point = mesh_.points[std::size_t(v)];
-    const double old_value = mesh_.values[std::size_t(v)];
-    for (double length : lengths) {
-      mesh_.points[std::size_t(v)] = old_point + length * Vec3(step[0], step[1], step[2]);
-      mesh_.values[std::size_t(v)] = std::clamp(old_value + length * step[3], low_, high_);
-      if (is_positive() && error_here() < 0.999 * old_error) {
-        settle();
-        return true;
-      }
+  std::size_t locate(const Vec3 &p, std::size_t hint, double w[4]) const {
+    double best = frames_[hint].weights(p, w);
+    std::size_t home = hint;
+    for (std::size_t k = 0; k < star_.size() && best < 0; k++) {
+      double other[4];
+      const double least = frames_[k].weights(p, other);
+      if (least <= best) continue;
+      best = least;
+      home = k;
+      std::copy(other, other + 4, w);
     }
-    mesh_.points[std::size_t(v)] = old_point;
-    mesh_.values[std::size_t(v)] = old_value;
+    return home;
+  }
+
+  const AdaptiveMesh &mesh_;
+  const Cavity &star_;
+  bool positive_ = true;
+  TetFrame frames_[largest_cavity];
+  double values_[largest_cavity][4];
+};
+
+/// Looks for the moves that pay; of the mesh as it is.
+class MoveFinder {
+ public:
+  MoveFinder(double least, const AdaptiveMesh &mesh) : least_(least), mesh_(mesh) {}
+
+  bool find(std::int32_t v, Move &move) const {
+    if (!mesh_.star(v, move.old)) return false;
+    double old_error = 0;
+    for (std::int32_t t : move.old) old_error += mesh_.error[std::size_t(t)];
+    Step step;
+    if (!(old_error > least_) || !gauss_newton(v, move.old, step)) return false;
+    move.vertex = v;
+    for (double length : lengths) {
+      move.point = mesh_.points[std::size_t(v)] + length * Vec3(step.by[0], step.by[1], step.by[2]);
+      move.value = std::clamp(mesh_.values[std::size_t(v)] + length * step.by[3], step.low, step.high);
+      const MovedStar moved(mesh_, move);
+      if (moved.is_positive() && moved.is_less(least_part * old_error, move)) return true;
+    }
     return false;
   }
 
+ private:
+  struct Step {
+    double by[4] = {};
+    double low, high;  ///< of the values around
+  };
+
   /// A corner that moves by d takes its linear function along: the residual at p changes by w (value - gradient . d).
-  bool gauss_newton(std::int32_t v, double step[4]) {
+  bool gauss_newton(std::int32_t v, const Cavity &star, Step &step) const {
     double a[4][4] = {}, size2 = 0;
-    for (int i = 0; i < 4; i++) step[i] = 0;
-    low_ = high_ = mesh_.values[std::size_t(v)];
-    for (std::int32_t t : star_) {
+    step.low = step.high = mesh_.values[std::size_t(v)];
+    for (std::int32_t t : star) {
       const Tet &tet = mesh_.tets[std::size_t(t)];
       const TetFrame frame = mesh_.frame(t);
       const auto corner = std::size_t(std::find(tet.begin(), tet.end(), v) - tet.begin());
       const Vec3 g = frame.gradient(mesh_.value(t, 0), mesh_.value(t, 1), mesh_.value(t, 2), mesh_.value(t, 3));
       const double j[4] = {-g.x, -g.y, -g.z, 1};
       for (std::int32_t u : tet) size2 += length2(mesh_.points[std::size_t(u)] - mesh_.points[std::size_t(v)]);
+      double ww = 0, wr = 0;
       mesh_.for_probes(t, [&](std::int32_t p) {
         const Probe &probe = mesh_.probes[std::size_t(p)];
         double w[4];
         frame.weights(probe.point, w);
-        const double r = mesh_.residual(tet, w, probe), weight = w[corner];
-        for (int m = 0; m < 4; m++) {
-          for (int n = 0; n <= m; n++) a[m][n] += weight * weight * j[m] * j[n];
-          step[m] -= weight * r * j[m];
-        }
-        low_ = std::min(low_, probe.value);
-        high_ = std::max(high_, probe.value);
+        ww += w[corner] * w[corner];
+        wr += w[corner] * mesh_.residual(tet, w, probe);
+        step.low = std::min(step.low, probe.value);
+        step.high = std::max(step.high, probe.value);
       });
+      for (int m = 0; m < 4; m++) {
+        for (int n = 0; n <= m; n++) a[m][n] += ww * j[m] * j[n];
+        step.by[m] -= wr * j[m];
+      }
     }
-    size2 /= 3 * double(star_.size());
+    size2 /= 3 * double(star.size());
     // A step of the star's size costs as much as a residual of the field's change over the star.
     const double change2 = (a[0][0] + a[1][1] + a[2][2]) * size2 / std::max(a[3][3], 1e-300);
     if (!(a[3][3] > 0)) return false;
     for (int m = 0; m < 3; m++) a[m][m] += damping * a[3][3] * std::max(change2, 1e-300) / size2;
     a[3][3] *= 1 + damping;
-    if (!solve_cholesky(a, step)) return false;
-    const double far2 = (step[0] * step[0] + step[1] * step[1] + step[2] * step[2]) / (0.25 * size2);
+    if (!solve_cholesky(a, step.by)) return false;
+    const double far2 = (step.by[0] * step.by[0] + step.by[1] * step.by[1] + step.by[2] * step.by[2]) / (0.25 * size2);
     if (far2 > 1)
-      for (int m = 0; m < 4; m++) step[m] /= std::sqrt(far2);
+      for (double &by : step.by) by /= std::sqrt(far2);
     return true;
   }
 
-  bool is_positive() const {
-    return std::all_of(star_.begin(), star_.end(),
-                       [&](std::int32_t t) { return is_sound(mesh_, mesh_.tets[std::size_t(t)], least_shape); });
-  }
-
-  /// Of the star as it is now; most probes stay in their tets.
-  double error_here() {
-    frames_.clear();
-    homes_.clear();
-    for (std::int32_t t : star_) frames_.push_back(mesh_.frame(t));
-    double sum = 0;
-    for (std::size_t i = 0; i < star_.size(); i++)
-      mesh_.for_probes(star_[i], [&](std::int32_t p) {
-        const Vec3 &at = mesh_.probes[std::size_t(p)].point;
-        double w[4], best = frames_[i].weights(at, w);
-        std::size_t home = i;
-        for (std::size_t k = 0; k < star_.size() && best < 0; k++) {
-          double other[4];
-          const double least = frames_[k].weights(at, other);
-          if (least <= best) continue;
-          best = least;
-          home = k;
-          std::copy(other, other + 4, w);
-        }
-        const double r = mesh_.residual(mesh_.tets[std::size_t(star_[home])], w, mesh_.probes[std::size_t(p)]);
-        sum += r * r;
-        homes_.push_back({p, home});
-      });
-    return sum;
-  }
-
-  void settle() {
-    for (std::int32_t t : star_) mesh_.first_probe[std::size_t(t)] = -1;
-    for (std::size_t i = homes_.size(); i-- > 0;) mesh_.put_probe(homes_[i].probe, star_[homes_[i].tet]);
-    for (std::int32_t t : star_) mesh_.measure(t);
-  }
-
-  Job &job_;
-  AdaptiveMesh &mesh_;
-  double low_ = 0, high_ = 0;
-  Array<std::int32_t> star_;
-  Array<TetFrame> frames_;
-  Array<Home> homes_;
+  double least_;
+  const AdaptiveMesh &mesh_;
 };
+
+void make_move(const Move &move, AdaptiveMesh &mesh) {
+  mesh.points[std::size_t(move.vertex)] = move.point;
+  mesh.values[std::size_t(move.vertex)] = move.value;
+  for (std::size_t i = 0; i < move.old.size(); i++) {
+    const auto t = std::size_t(move.old[i]);
+    mesh.first_probe[t] = -1;
+    mesh.error[t] = move.error[i];
+    mesh.touch(move.old[i]);
+  }
+  for (std::size_t i = move.homes.size(); i-- > 0;) mesh.put_probe(move.homes[i].probe, move.homes[i].tet);
+}
 
 }  // namespace
 
-std::int64_t move_vertices(std::size_t first, Job &job, AdaptiveMesh &mesh) { return Mover(job, mesh).sweep(first); }
+std::int64_t move_vertices(std::size_t first, Job &job, AdaptiveMesh &mesh) {
+  Array<std::int32_t> items(&job.memory);
+  for (std::size_t v = first; v < mesh.points.size(); v++)
+    if (!mesh.fixed[v] && !mesh.kept[v] && mesh.tet_of[v] >= 0) items.push_back(std::int32_t(v));
+  const MoveFinder finder(quiet * 4 * mesh.total_error() / double(mesh.points.size()), mesh);
+  const Array<std::size_t> batches = batches_apart(mesh, items);
+  return sweep<Move>(
+      items, batches, job, mesh, [&](std::int32_t v, Move &move) { return finder.find(v, move); },
+      [&](const Move &move) { make_move(move, mesh); });
+}
 
 }  // namespace tetlod

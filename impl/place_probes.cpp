@@ -12,8 +12,9 @@ namespace {
 
 /// A point this far out of a tet, in barycentric weight, still belongs to it.
 constexpr double tolerance = 1e-6;
-/// Chance of a centroid to be a probe: this for every tet, and this times its share of the field's changes.
-constexpr double chance_everywhere = 0.08, chance_by_change = 0.24;
+/// Probes inside a tet of the original: so many for every tet, and so many times its share of the field's changes; more
+/// of both for a small mesh, whose vertices alone would say too little of what is between them.
+constexpr double everywhere = 0.14, by_change = 0.42, small_mesh = 1e5, most_for_small = 1.6;
 constexpr std::size_t block = 1024;
 constexpr int longest_walk = 200;
 
@@ -25,12 +26,18 @@ double random_unit(std::uint64_t key) {
   return double((key ^ (key >> 31)) >> 11) * 0x1p-53;
 }
 
-double change_of(const MeshView &mesh, const Tet &t) {
+/// The least and the greatest value at the corners of t.
+std::pair<double, double> range_of(const MeshView &mesh, const Tet &t) {
   double low = mesh.scalars[std::size_t(t[0])], high = low;
   for (std::int32_t v : t) {
     low = std::min(low, mesh.scalars[std::size_t(v)]);
     high = std::max(high, mesh.scalars[std::size_t(v)]);
   }
+  return {low, high};
+}
+
+double change_of(const MeshView &mesh, const Tet &t) {
+  const auto [low, high] = range_of(mesh, t);
   return high - low;
 }
 
@@ -42,21 +49,34 @@ void add_vertices(const MeshView &original, Memory &memory, Array<Probe> &probes
     if (used[v]) probes.push_back({original.points[v], original.scalars[v]});
 }
 
-void add_centroids(const MeshView &original, Job &job, Array<Probe> &probes) {
+/// At a random place of tet t, uniformly: the gaps between three sorted numbers are its weights.
+Probe probe_inside(const MeshView &original, const Tet &t, std::uint64_t key) {
+  double cut[3];
+  for (std::size_t k = 0; k < 3; k++) cut[k] = random_unit(3 * key + k);
+  std::sort(cut, cut + 3);
+  const double weights[4] = {cut[0], cut[1] - cut[0], cut[2] - cut[1], 1 - cut[2]};
+  Probe probe{Vec3(0), 0};
+  for (std::size_t k = 0; k < 4; k++) {
+    probe.point += weights[k] * original.points[std::size_t(t[k])];
+    probe.value += weights[k] * original.scalars[std::size_t(t[k])];
+  }
+  const auto [low, high] = range_of(original, t);
+  probe.value = std::clamp(probe.value, low, high);
+  return probe;
+}
+
+/// Systematically: whenever the tets that went by are due one.
+void add_inner(const MeshView &original, Job &job, Array<Probe> &probes) {
   double sum = 0;
   for (const Tet &t : original.tets) sum += change_of(original, t);
-  const double mean = sum / double(original.tets.size());
+  const double count = double(original.tets.size()), mean = sum / count;
+  const double more = std::clamp(std::sqrt(small_mesh / count), 1.0, most_for_small);
+  double due = 0.5;
   for (std::size_t i = 0; i < original.tets.size(); i++) {
     if (i % 16384 == 0) job.poll(0);
     const Tet &t = original.tets[i];
-    const double share = mean > 0 ? change_of(original, t) / mean : 0;
-    if (random_unit(i) >= chance_everywhere + chance_by_change * share) continue;
-    Probe probe{Vec3(0), 0};
-    for (std::int32_t v : t) {
-      probe.point += 0.25 * original.points[std::size_t(v)];
-      probe.value += 0.25 * original.scalars[std::size_t(v)];
-    }
-    probes.push_back(probe);
+    due += more * (everywhere + (mean > 0 ? by_change * change_of(original, t) / mean : 0));
+    for (; due >= 1; due--) probes.push_back(probe_inside(original, t, probes.size()));
   }
 }
 
@@ -144,7 +164,7 @@ void project(Job &job, Array<std::int32_t> &home, AdaptiveMesh &mesh) {
 std::int64_t place_probes(const MeshView &original, bool project_outside, Job &job, AdaptiveMesh &mesh) {
   add_vertices(original, job.memory, mesh.probes);
   mesh.vertex_probes = mesh.probes.size();
-  add_centroids(original, job, mesh.probes);
+  add_inner(original, job, mesh.probes);
   const Locator locator(mesh, job);
   Array<std::int32_t> home(mesh.probes.size(), -1, &job.memory);
   job.parallel.for_blocks(home.size(), block, [&](std::size_t begin, std::size_t end) {

@@ -100,10 +100,12 @@ int exact_turn(const Vec3 &a, const Vec3 &b, const Vec3 &c, int i, int j) {
 struct Corners {
   const Vec3 *point;
   const Triangle *id;
+  Vec3 normal;
   int i, j;
 
-  Corners(const Vec3 *points, const Triangle &ids) : point(points), id(&ids) {
-    const Vec3 n = glm::abs(area_vector(points[0], points[1], points[2]));
+  Corners(const Vec3 *points, const Triangle &ids)
+      : point(points), id(&ids), normal(area_vector(points[0], points[1], points[2])) {
+    const Vec3 n = glm::abs(normal);
     const int drop = n.x > n.y ? (n.x > n.z ? 0 : 2) : (n.y > n.z ? 1 : 2);
     i = (drop + 1) % 3;
     j = (drop + 2) % 3;
@@ -158,7 +160,31 @@ bool edges_miss(const Corners &a, const Corners &b) {
   return true;
 }
 
-/// All of `b` but common vertices is on one side of the plane of `a`: most pairs are decided here.
+/// From p, of the plane with this normal, q is on the outer side, and so clearly that rounding has no say.
+bool clearly_outside(const Vec3 &normal, const Vec3 &p, const Vec3 &q) {
+  constexpr double least_sine = 1e-9;
+  const double height = glm::dot(normal, q - p);
+  return height > 0 && height * height > least_sine * least_sine * length2(normal) * length2(q - p);
+}
+
+/// A plane upright on an edge of `a` has `a` on one side and all of `b` but common vertices on the other: rounding
+/// cannot reach that far, and most pairs are decided here, those in one plane, too.
+bool upright_plane_separates(const Corners &a, const Corners &b) {
+  for (int k = 0; k < 3; k++) {
+    const int next = (k + 1) % 3;
+    const Vec3 outward = glm::cross(a.point[next] - a.point[k], a.normal);
+    bool separates = !b.has(a.corner((k + 2) % 3));
+    for (int m = 0; m < 3 && separates; m++) {
+      if (a.has(b.corner(m))) continue;
+      separates =
+          clearly_outside(outward, a.point[k], b.point[m]) && clearly_outside(outward, a.point[next], b.point[m]);
+    }
+    if (separates) return true;
+  }
+  return false;
+}
+
+/// All of `b` but common vertices is on one side of the plane of `a`.
 bool plane_separates(const Corners &a, const Corners &b) {
   int side = 0;
   for (int k = 0; k < 3; k++) {
@@ -211,6 +237,7 @@ bool triangles_apart(const Vec3 *first, const Triangle &first_ids, const Vec3 *s
   int common = 0;
   for (std::int32_t id : first_ids) common += b.has(id);
   if (common == 3) return false;
+  if (upright_plane_separates(a, b) || (common < 2 && upright_plane_separates(b, a))) return true;
   if (common == 2) return hinge_is_open(a, b);
   return plane_separates(a, b) || plane_separates(b, a) || (edges_miss(a, b) && edges_miss(b, a));
 }

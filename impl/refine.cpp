@@ -7,15 +7,15 @@
 #include "insert_vertices.hpp"
 #include "move_vertices.hpp"
 #include "place_probes.hpp"
+#include "remove_vertices.hpp"
 
 namespace tetlod {
 
 namespace {
 
-/// What a tet must gain to be worth it, in mean errors of a tet.
-constexpr double price_of_tet = 1.33;
+/// What a tet must gain to be worth it, in mean errors of a tet; and where a vertex goes that was worth its tets once.
+constexpr double price_of_tet = 1.33, price_of_vertex = 0.5;
 constexpr int fit_steps = 8, last_fit_steps = 20;
-/// Tets that an inserted vertex brings in the end, flips included, for one of the three that it brings at once.
 constexpr int rounds = 4;
 
 class Refinement {
@@ -28,7 +28,7 @@ class Refinement {
     first_inserted_ = mesh_.points.size();
     mesh_.kept.assign(options.kept.begin(), options.kept.end());
     mesh_.kept.resize(mesh_.points.size(), 0);
-    mesh_.connect();
+    mesh_.connect(job);
     report_.probes_outside = place_probes(original, options.bound > 0, job, mesh_);
   }
 
@@ -38,7 +38,7 @@ class Refinement {
     fit_values(last_fit_steps, job_, mesh_);
     if (options_.bound > 0) report_.beyond_bound = hold_bound(options_.bound, job_, mesh_);
     report_.max_error = largest_error(mesh_).value;
-    count_inserted();
+    count_points();
     write();
     return report_;
   }
@@ -51,6 +51,7 @@ class Refinement {
     move(0);
     for (int round = 0; round < rounds; round++) {
       fit_values(fit_steps, job_, mesh_);
+      if (round + 1 < rounds) remove();
       const std::size_t first = mesh_.points.size();
       insert((options_.tets - std::int64_t(mesh_.count())) / (round + 1 < rounds ? 2 : 1));
       move(first);
@@ -60,15 +61,25 @@ class Refinement {
   }
 
   void move(std::size_t first) { report_.moves += move_vertices(first, job_, mesh_); }
-  void flip() { report_.flips += flip_tets(price_of_tet * mesh_.total_error() / double(mesh_.count()), job_, mesh_); }
+  void flip() { report_.flips += flip_tets(price_of_tet * mean_error(), job_, mesh_); }
+  void remove() { remove_vertices(price_of_vertex * mean_error(), job_, mesh_); }
   void insert(std::int64_t tets) {
     if (tets > 0) insert_vertices(tets, job_, mesh_);
   }
 
-  void count_inserted() {
-    report_.inserted = std::int64_t(mesh_.points.size() - first_inserted_);
-    for (std::size_t v = first_inserted_; v < mesh_.points.size(); v++)
-      report_.inserted_on_boundary += mesh_.fixed[v] != 0;
+  double mean_error() const { return mesh_.total_error() / double(mesh_.count()); }
+
+  void count_points() {
+    const std::size_t first_steiner = first_inserted_ - std::size_t(options_.steiner);
+    for (std::size_t v = 0; v < mesh_.points.size(); v++) {
+      const bool is_there = mesh_.tet_of[v] >= 0;
+      if (v >= first_inserted_) {
+        report_.inserted += is_there;
+        report_.inserted_on_boundary += is_there && mesh_.fixed[v];
+      } else if (!is_there) {
+        (v < first_steiner ? report_.removed_samples : report_.removed_steiner)++;
+      }
+    }
   }
 
   void write() {

@@ -7,6 +7,7 @@ namespace tetlod {
 
 struct RefineOptions {
   std::int64_t tets = 0;          ///< how many there shall be
+  std::int64_t steiner = 0;       ///< how many of the points, the last ones, are Steiner points
   bool follow_field = true;       ///< also move vertices and flip
   double bound = 0;               ///< of the error at every original vertex, absolute; 0: none
   Span<const std::uint8_t> kept;  ///< points that keep place and value, and the faces among them; empty: none
@@ -14,14 +15,15 @@ struct RefineOptions {
 
 struct RefineReport {
   std::int64_t inserted = 0, inserted_on_boundary = 0, flips = 0, moves = 0, probes_outside = 0;
+  std::int64_t removed_samples = 0, removed_steiner = 0;
   std::int64_t beyond_bound = 0;  ///< original vertices where the bound could not be held
   double max_error = 0;           ///< at the original vertices; those outside count with a bound alone
 };
 
-/// `mesh` has points, scalars and tets. Fits its values, moves inner vertices, flips faces and edges and inserts
-/// vertices, so that the field comes nearer to the original's. The surface stays where it is; the faces of it that
-/// get a vertex are divided. Points are numbered anew, those of the boundary first, in their order; mesh.boundary is
-/// made.
+/// `mesh` has points, scalars and tets. Fits its values, moves inner vertices, flips faces and edges, removes inner
+/// vertices and inserts others, so that the field comes nearer to the original's. The surface stays where it is; the
+/// faces of it that get a vertex are divided. Points are numbered anew, those of the boundary first, in their order;
+/// mesh.boundary is made.
 RefineReport refine(const MeshView &original, const RefineOptions &options, Job &job, TetMesh &mesh);
 
 }  // namespace tetlod

@@ -12,7 +12,7 @@ namespace tetlod {
 /// The point of a surface that is nearest to another.
 struct NearestPoint {
   std::int32_t triangle = -1;  ///< -1 where squared distances leave the range of doubles
-  Vec3 weights{0};  ///< barycentric, in the triangle
+  Vec3 weights{0};             ///< barycentric, in the triangle
   double distance = 0;
 };
 

@@ -1,0 +1,89 @@
+#include "remove_vertices.hpp"
+
+#include "sweep.hpp"
+
+namespace tetlod {
+
+namespace {
+
+/// Stars with more error than so many prices have no vertex to spare.
+constexpr double busy = 20;
+
+struct Collapse {
+  std::int32_t vertex;
+  Cavity old;  ///< the star of the vertex that goes
+  Filling fresh;
+};
+
+/// Looks for the collapse of a vertex that costs least; of the mesh as it is.
+class CollapseFinder {
+ public:
+  CollapseFinder(double price, const AdaptiveMesh &mesh) : price_(price), mesh_(mesh) {}
+
+  bool find(std::int32_t v, Collapse &collapse) const {
+    if (mesh_.tet_of[std::size_t(v)] < 0 || !mesh_.star(v, collapse.old)) return false;
+    collapse.vertex = v;
+    double old_error = 0;
+    for (std::int32_t t : collapse.old) old_error += mesh_.error[std::size_t(t)];
+    if (old_error > busy * price_) return false;
+    Cavity link;
+    for (std::int32_t t : collapse.old)
+      for (std::int32_t u : mesh_.tets[std::size_t(t)])
+        if (u != v && !link.has(u)) link.push(u);
+    double best = 0;
+    bool found = false;
+    for (std::int32_t u : link) {
+      const Filling fresh = moved_to(v, u, collapse.old);
+      if (!is_better(collapse.old, fresh, old_error, best)) continue;
+      collapse.fresh = fresh;
+      found = true;
+    }
+    return found;
+  }
+
+ private:
+  Filling moved_to(std::int32_t v, std::int32_t u, const Cavity &star) const {
+    Filling fresh;
+    for (std::int32_t t : star) {
+      Tet tet = mesh_.tets[std::size_t(t)];
+      if (std::find(tet.begin(), tet.end(), u) != tet.end()) continue;
+      *std::find(tet.begin(), tet.end(), v) = u;
+      fresh.push(tet);
+    }
+    return fresh;
+  }
+
+  bool is_better(const Cavity &old, const Filling &fresh, double old_error, double &best) const {
+    TetFrame frames[largest_cavity];
+    for (std::size_t i = 0; i < fresh.size(); i++) {
+      if (!mesh_.is_sound(fresh[i], least_shape)) return false;
+      frames[i] = mesh_.frame(fresh[i]);
+    }
+    const double cost = price_ * (double(fresh.size()) - double(old.size())) - old_error;
+    const double change = mesh_.error_after(old, fresh, frames, best - cost) + cost;
+    if (!(change < best)) return false;
+    best = change;
+    return true;
+  }
+
+  double price_;
+  const AdaptiveMesh &mesh_;
+};
+
+}  // namespace
+
+std::int64_t remove_vertices(double price, Job &job, AdaptiveMesh &mesh) {
+  Array<std::int32_t> items(&job.memory), made(&job.memory);
+  for (std::size_t v = 0; v < mesh.points.size(); v++)
+    if (!mesh.fixed[v] && !mesh.kept[v] && mesh.tet_of[v] >= 0) items.push_back(std::int32_t(v));
+  const CollapseFinder finder(price, mesh);
+  const Array<std::size_t> batches = batches_apart(mesh, items);
+  return sweep<Collapse>(
+      items, batches, job, mesh, [&](std::int32_t v, Collapse &collapse) { return finder.find(v, collapse); },
+      [&](const Collapse &collapse) {
+        mesh.replace(collapse.old, collapse.fresh, made);
+        mesh.tet_of[std::size_t(collapse.vertex)] = -1;
+      });
+}
+
+}  // namespace tetlod

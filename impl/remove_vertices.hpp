@@ -1,0 +1,12 @@
+// Inner vertices that the field does not need give their tets back.
+#pragma once
+#include "adaptive_mesh.hpp"
+#include "job.hpp"
+
+namespace tetlod {
+
+/// One sweep of collapses of inner vertices into a neighbour. A collapse is made when it raises the sum of squares by
+/// less than `price` for every tet that it saves. Returns how many were made.
+std::int64_t remove_vertices(double price, Job &job, AdaptiveMesh &mesh);
+
+}  // namespace tetlod
