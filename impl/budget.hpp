@@ -27,8 +27,14 @@ constexpr double tets_a_sample = 6.5, tets_a_boundary_point = 3;
 /// Share of the tets that is left to the vertices that refine() inserts.
 constexpr double spare = 0.05;
 constexpr int most_rounds = 6;
-/// What the field's range counts as beside the diagonal, when the boundary is decimated: more costs geometry.
-constexpr double field_weight = 0.15;
+/// What the field's range counts as beside the diagonal, when the boundary is decimated: more costs geometry, and gains
+/// where a large share of the vertices is on the boundary.
+constexpr double field_weight = 0.3;
+
+inline double field_weight_of(const Report &report) {
+  const auto boundary = double(report.boundary_points_in);
+  return field_weight * boundary / (boundary + double(report.interior_points_in));
+}
 
 /// A surface has fewer triangles to lose than its solid has tets, and less to lose them for.
 inline double boundary_share(double ratio) { return std::pow(ratio, 0.8); }

@@ -197,8 +197,9 @@ class Pipeline {
     report_.nonmanifold_edges = topology.nonmanifold_edges;
     report_.nonmanifold_points = topology.nonmanifold_points;
     const double range = report_.scalar_max - report_.scalar_min;
-    const double weight =
-        as_published(options_) || !(range > 0) ? 0 : field_weight * box_of(surface.points).diagonal() / range;
+    const double weight = as_published(options_) || !(range > 0)
+                              ? 0
+                              : field_weight_of(report_) * box_of(surface.points).diagonal() / range;
     const DecimateOptions options{sigma, options_.lambda, options_.clean_edges, weight};
     report_.cleaned_edges = decimate_boundary(surface, topology, flags_of(surface), options, job_).cleaned_edges;
     refuse_crossing(surface, input_.index_base, job_);

@@ -41,12 +41,29 @@ double change_of(const MeshView &mesh, const Tet &t) {
   return high - low;
 }
 
-void add_vertices(const MeshView &original, Memory &memory, Array<Probe> &probes) {
+/// Takes each of a sequence by its share, evenly: whenever those that went by add up to one more.
+class EvenShares {
+ public:
+  /// How often the next one is taken.
+  int take(double share) {
+    due_ += share;
+    const double whole = std::floor(due_);
+    due_ -= whole;
+    return int(whole);
+  }
+
+ private:
+  double due_ = 0.5;
+};
+
+void add_vertices(const MeshView &original, double most, Memory &memory, Array<Probe> &probes) {
   Array<std::uint8_t> used(original.points.size(), 0, &memory);
   for (const Tet &t : original.tets)
     for (std::int32_t v : t) used[std::size_t(v)] = 1;
+  const double share = std::min(1.0, most / double(std::count(used.begin(), used.end(), 1)));
+  EvenShares shares;
   for (std::size_t v = 0; v < used.size(); v++)
-    if (used[v]) probes.push_back({original.points[v], original.scalars[v]});
+    if (used[v] && (share == 1 || shares.take(share))) probes.push_back({original.points[v], original.scalars[v]});
 }
 
 /// At a random place of tet t, uniformly: the gaps between three sorted numbers are its weights.
@@ -65,18 +82,18 @@ Probe probe_inside(const MeshView &original, const Tet &t, std::uint64_t key) {
   return probe;
 }
 
-/// Systematically: whenever the tets that went by are due one.
-void add_inner(const MeshView &original, Job &job, Array<Probe> &probes) {
+void add_inner(const MeshView &original, double most, Job &job, Array<Probe> &probes) {
   double sum = 0;
   for (const Tet &t : original.tets) sum += change_of(original, t);
   const double count = double(original.tets.size()), mean = sum / count;
   const double more = std::clamp(std::sqrt(small_mesh / count), 1.0, most_for_small);
-  double due = 0.5;
+  const double scale = std::min(more, most / (count * (everywhere + by_change)));
+  EvenShares shares;
   for (std::size_t i = 0; i < original.tets.size(); i++) {
     if (i % 16384 == 0) job.poll(0);
     const Tet &t = original.tets[i];
-    due += more * (everywhere + (mean > 0 ? by_change * change_of(original, t) / mean : 0));
-    for (; due >= 1; due--) probes.push_back(probe_inside(original, t, probes.size()));
+    const double share = scale * (everywhere + (mean > 0 ? by_change * change_of(original, t) / mean : 0));
+    for (int n = shares.take(share); n > 0; n--) probes.push_back(probe_inside(original, t, probes.size()));
   }
 }
 
@@ -85,9 +102,11 @@ class Locator {
  public:
   Locator(const AdaptiveMesh &mesh, Job &job) : mesh_(mesh), frames_(&job.memory), tree_(job.memory) {
     Array<Box> boxes(mesh.tets.size(), &job.memory);
-    frames_.reserve(mesh.tets.size());
+    frames_.resize(mesh.tets.size());
     for (std::size_t t = 0; t < mesh.tets.size(); t++) {
-      frames_.push_back(mesh.frame(std::int32_t(t)));
+      if (!mesh.alive(std::int32_t(t))) continue;
+      start_ = std::int32_t(t);
+      frames_[t] = mesh.frame(std::int32_t(t));
       for (int k = 0; k < 4; k++) boxes[t].add(mesh.corner(std::int32_t(t), k));
       const Vec3 margin = tolerance * (boxes[t].high - boxes[t].low);
       boxes[t].low -= margin;
@@ -96,9 +115,9 @@ class Locator {
     tree_.build(std::move(boxes), 4, [&] { job.poll(0.1); });
   }
 
-  /// The tet of p, searched from `hint` on; -1 outside.
+  /// The tet of p, searched from tet `hint` on, or, where that is -1, from anywhere; -1 outside.
   std::int32_t find(const Vec3 &p, std::int32_t hint) const {
-    const std::int32_t t = walk(p, hint);
+    const std::int32_t t = walk(p, hint >= 0 ? hint : start_);
     return t >= 0 ? t : search(p);
   }
 
@@ -130,6 +149,7 @@ class Locator {
   }
 
   const AdaptiveMesh &mesh_;
+  std::int32_t start_ = 0;
   Array<TetFrame> frames_;
   KdTree tree_;
 };
@@ -140,7 +160,7 @@ void project(Job &job, Array<std::int32_t> &home, AdaptiveMesh &mesh) {
   Array<std::int32_t> tet_of_face(&job.memory);
   for (std::size_t t = 0; t < mesh.tets.size(); t++)
     for (int k = 0; k < 4; k++)
-      if (mesh.neighbours[t][std::size_t(k)] < 0) {
+      if (mesh.alive(std::int32_t(t)) && mesh.neighbours[t][std::size_t(k)] < 0) {
         faces.push_back(sorted_face(mesh.tets[t], k));
         tet_of_face.push_back(std::int32_t(t));
       }
@@ -159,28 +179,54 @@ void project(Job &job, Array<std::int32_t> &home, AdaptiveMesh &mesh) {
   });
 }
 
-}  // namespace
-
-std::int64_t place_probes(const MeshView &original, bool project_outside, Job &job, AdaptiveMesh &mesh) {
-  add_vertices(original, job.memory, mesh.probes);
-  mesh.vertex_probes = mesh.probes.size();
-  add_inner(original, job, mesh.probes);
+Array<std::int32_t> find_homes(Job &job, const AdaptiveMesh &mesh) {
   const Locator locator(mesh, job);
   Array<std::int32_t> home(mesh.probes.size(), -1, &job.memory);
   job.parallel.for_blocks(home.size(), block, [&](std::size_t begin, std::size_t end) {
-    std::int32_t hint = 0;
+    std::int32_t hint = -1;
     for (std::size_t i = begin; i < end; i++) {
       home[i] = locator.find(mesh.probes[i].point, hint);
       if (home[i] >= 0) hint = home[i];
     }
     job.poll(0.1 + 0.1 * double(end) / double(home.size()));
   });
-  mesh.next_probe.assign(home.size(), -1);
+  return home;
+}
+
+/// Sorts probes begin to end by their tets, so that those of a tet lie side by side.
+void sort_by_home(std::size_t begin, std::size_t end, AdaptiveMesh &mesh, Array<std::int32_t> &home) {
+  Array<std::size_t> place(mesh.tets.size() + 2, 0, &mesh.memory());
+  for (std::size_t i = begin; i < end; i++) place[std::size_t(home[i] + 2)]++;
+  for (std::size_t t = 0; t + 1 < place.size(); t++) place[t + 1] += place[t];
+  Array<Probe> probes(end - begin, &mesh.memory());
+  Array<std::int32_t> homes(end - begin, -1, &mesh.memory());
+  for (std::size_t i = begin; i < end; i++) {
+    const std::size_t to = place[std::size_t(home[i] + 1)]++;
+    probes[to] = mesh.probes[i];
+    homes[to] = home[i];
+  }
+  std::copy(probes.begin(), probes.end(), mesh.probes.begin() + std::ptrdiff_t(begin));
+  std::copy(homes.begin(), homes.end(), home.begin() + std::ptrdiff_t(begin));
+}
+
+}  // namespace
+
+std::int64_t place_probes(const MeshView &original, const ProbeOptions &options, Job &job, AdaptiveMesh &mesh) {
+  mesh.probes.clear();
+  add_vertices(original, options.most_vertices, job.memory, mesh.probes);
+  mesh.vertex_probes = mesh.probes.size();
+  if (options.most_inner > 0) add_inner(original, options.most_inner, job, mesh.probes);
+  Array<std::int32_t> home = find_homes(job, mesh);
   const auto outside = std::count(home.begin(), home.begin() + std::ptrdiff_t(mesh.vertex_probes), -1);
-  if (project_outside && outside > 0) project(job, home, mesh);
+  if (options.project_outside && outside > 0) project(job, home, mesh);
+  sort_by_home(0, mesh.vertex_probes, mesh, home);
+  sort_by_home(mesh.vertex_probes, home.size(), mesh, home);
+  mesh.next_probe.assign(home.size(), -1);
+  mesh.first_probe.assign(mesh.tets.size(), -1);
   for (std::size_t i = home.size(); i-- > 0;)
     if (home[i] >= 0) mesh.put_probe(std::int32_t(i), home[i]);
-  for (std::size_t t = 0; t < mesh.tets.size(); t++) mesh.measure(std::int32_t(t));
+  for (std::size_t t = 0; t < mesh.tets.size(); t++)
+    if (mesh.alive(std::int32_t(t))) mesh.measure(std::int32_t(t));
   return outside;
 }
 

@@ -5,10 +5,16 @@
 
 namespace tetlod {
 
-/// Gives `mesh`, which is connected and has values, its probes: every original vertex that a tet uses, and
-/// random points in original tets, more of them where the field changes more: with vertices alone the mesh would be
-/// fitted to them and go its own way in between. Vertices outside of the mesh are left out, or, with project_outside,
-/// compared at the nearest point of its boundary; their number is returned.
-std::int64_t place_probes(const MeshView &original, bool project_outside, Job &job, AdaptiveMesh &mesh);
+struct ProbeOptions {
+  /// How many probes there are at most; what is left out is spread evenly.
+  double most_vertices = std::numeric_limits<double>::infinity(), most_inner = most_vertices;
+  bool project_outside = false;  ///< compare vertices outside of the mesh at the nearest point of its boundary
+};
+
+/// Gives `mesh`, which is connected and has values, its probes in place of those that it has: every original vertex
+/// that a tet uses, and random points in original tets, more of them where the field changes more: with vertices alone
+/// the mesh would be fitted to them and go its own way in between. Returns how many of the vertices are outside of the
+/// mesh; they are left out, or projected.
+std::int64_t place_probes(const MeshView &original, const ProbeOptions &options, Job &job, AdaptiveMesh &mesh);
 
 }  // namespace tetlod

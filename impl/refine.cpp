@@ -8,6 +8,7 @@
 #include "move_vertices.hpp"
 #include "place_probes.hpp"
 #include "remove_vertices.hpp"
+#include "sort_by_place.hpp"
 
 namespace tetlod {
 
@@ -17,25 +18,29 @@ namespace {
 constexpr double price_of_tet = 1.33, price_of_vertex = 0.5;
 constexpr int fit_steps = 8, last_fit_steps = 20;
 constexpr int rounds = 4;
+/// Probes for each tet that there shall be.
+constexpr double vertices_a_tet = 8, inner_a_tet = 8;
 
 class Refinement {
  public:
   Refinement(const MeshView &original, const RefineOptions &options, Job &job, TetMesh &mesh)
-      : options_(options), job_(job), out_(mesh), mesh_(job.memory) {
+      : original_(original), options_(options), job_(job), out_(mesh), mesh_(job.memory) {
     mesh_.points = std::move(mesh.points);
     mesh_.values = std::move(mesh.scalars);
     mesh_.tets = std::move(mesh.tets);
+    sort_by_place(mesh_.points, mesh_.tets, job.memory);
     first_inserted_ = mesh_.points.size();
     mesh_.kept.assign(options.kept.begin(), options.kept.end());
     mesh_.kept.resize(mesh_.points.size(), 0);
     mesh_.connect(job);
-    report_.probes_outside = place_probes(original, options.bound > 0, job, mesh_);
   }
 
   RefineReport run() {
+    place_probes(original_, enough_probes(), job_, mesh_);
     if (options_.follow_field) follow_field();
     insert(options_.tets - std::int64_t(mesh_.count()));
     fit_values(last_fit_steps, job_, mesh_);
+    place_probes(original_, every_vertex(), job_, mesh_);
     if (options_.bound > 0) report_.beyond_bound = hold_bound(options_.bound, job_, mesh_);
     report_.max_error = largest_error(mesh_).value;
     count_points();
@@ -44,6 +49,22 @@ class Refinement {
   }
 
  private:
+  /// More would say no more of a tet than these do.
+  ProbeOptions enough_probes() const {
+    ProbeOptions probes;
+    probes.most_vertices = vertices_a_tet * double(options_.tets);
+    probes.most_inner = inner_a_tet * double(options_.tets);
+    probes.project_outside = options_.bound > 0;
+    return probes;
+  }
+
+  ProbeOptions every_vertex() const {
+    ProbeOptions probes;
+    probes.most_inner = 0;
+    probes.project_outside = options_.bound > 0;
+    return probes;
+  }
+
   void follow_field() {
     fit_values(fit_steps, job_, mesh_);
     move(0);
@@ -107,6 +128,7 @@ class Refinement {
     }
   }
 
+  const MeshView &original_;
   const RefineOptions &options_;
   Job &job_;
   TetMesh &out_;

@@ -44,6 +44,10 @@ Array<std::size_t> batches_of(std::size_t count, std::size_t batch, Memory &memo
 
 Array<std::size_t> batches_apart(const AdaptiveMesh &mesh, Array<std::int32_t> &vertices) {
   const TetsOfVertices tets(mesh);
+  std::sort(vertices.begin(), vertices.end(), [&](std::int32_t a, std::int32_t b) {
+    const std::int32_t s = tets.of(a)[0], t = tets.of(b)[0];
+    return s != t ? s < t : a < b;
+  });
   Array<std::size_t> ends(&mesh.memory());
   Array<std::size_t> taken(mesh.tets.size(), 0, &mesh.memory());  // by a vertex of which batch
   Array<std::int32_t> ordered(&mesh.memory()), left(vertices, &mesh.memory()), later(&mesh.memory());
