@@ -5,10 +5,12 @@
 #include <map>
 #include <set>
 
+#include "budget.hpp"
 #include "decimate_boundary.hpp"
 #include "demand.hpp"
 #include "extract_boundary.hpp"
 #include "find_crossing.hpp"
+#include "geometry.hpp"
 #include "oracle.hpp"
 #include "prepare.hpp"
 #include "stages.hpp"
@@ -133,11 +135,21 @@ void copy(const tetlod::Surface &from, tetlod::Surface &to) {
   to.triangles = from.triangles;
 }
 
+/// None, that of a run with a target size, any.
+double decode_field_weight(Bytes &in, const tetlod::Surface &surface) {
+  if (in.one_in(2)) return 0;
+  const auto [low, high] = std::minmax_element(surface.scalars.begin(), surface.scalars.end());
+  const double range = surface.scalars.empty() ? 0 : *high - *low;
+  const double usual = range > 0 ? tetlod::box_of(surface.points).diagonal() / range : 0;
+  return in.one_in(4) ? std::abs(in.real()) : tetlod::field_weight * usual;
+}
+
 void decimate(Stage &stage, const tetlod::Surface &before, const tetlod::SurfaceTopology &topology,
               const tetlod::Options &options, Bytes &in) {
   const std::vector<std::uint8_t> locked = decode_locks(in, before.points.size());
   const bool crossed = tetlod::find_crossing(before, stage.job()).first >= 0;
-  const tetlod::DecimateOptions how{options.sigma, options.lambda, options.clean_edges};
+  const double field_weight = decode_field_weight(in, before);
+  const tetlod::DecimateOptions how{options.sigma, options.lambda, options.clean_edges, field_weight};
   tetlod::Surface after(stage.memory());
   copy(before, after);
   tetlod::DecimateReport report;

@@ -25,8 +25,8 @@ void ask_texts(Session &, Bytes &in) {
   const std::int32_t option = decode_option(in);
   const char *const name = tetlod_option_name(option);
   if (name) DEMAND(tetlod_option_from_name(name) == option, "an option is known by its name");
-  std::string garbled;
-  for (std::size_t letters = in.below(16); letters > 0; letters--) garbled += char(in.byte());
+  std::string garbled(in.below(16), ' ');
+  for (char &letter : garbled) letter = char(in.byte());
   const std::int32_t found = tetlod_option_from_name(garbled.c_str());
   DEMAND(found == 0 || std::strcmp(tetlod_option_name(found), garbled.c_str()) == 0, "an option has the name");
 }
@@ -153,6 +153,17 @@ void set_preset(Session &session, Bytes &in) {
   check_documented("tetlod_set_preset", status, {TETLOD_ERR_OPTION});
 }
 
+/// A size, a bound, both, or neither again.
+void set_target(Session &session, Bytes &in) {
+  const auto set = [&](std::int32_t option, double real, std::int64_t integer) {
+    session.set({option, real, integer});
+  };
+  const std::size_t kind = in.below(5);
+  set(TETLOD_OPT_EFFORT, 0, in.one_in(3) ? TETLOD_EFFORT_FAST : TETLOD_EFFORT_ACCURATE);
+  set(TETLOD_OPT_TARGET_RATIO, kind == 0 ? 0 : in.fraction(), 0);
+  set(TETLOD_OPT_MAX_ERROR, kind == 3 || kind == 4 ? in.fraction() * std::pow(10.0, -double(in.below(5))) : 0, 0);
+}
+
 // ---- Input ---------------------------------------------------------------------------------------------------------
 
 void submit_mesh(Session &session, Bytes &in) { session.submit_all(decode_mesh(in)); }
@@ -172,6 +183,9 @@ void submit_one_slot(Session &session, Bytes &in) {
     default: session.submit_values(mesh, in);
   }
 }
+
+void submit_field(Session &session, Bytes &in) { session.submit_field(in); }
+void submit_flags(Session &session, Bytes &in) { session.submit_flags(in); }
 
 void forget_input(Session &session, Bytes &) { session.clear(); }
 
@@ -298,6 +312,10 @@ void transfer_constant(Session &session, Bytes &in) {
   }
 }
 
+void fetch_field(Session &session, Bytes &in) { session.fetch_field(in); }
+void fetch_stencil(Session &session, Bytes &in) { session.fetch_stencil(in); }
+void transfer(Session &session, Bytes &in) { session.transfer(in); }
+
 void look_at_result(Session &session, Bytes &) { session.check_kept(); }
 
 void listen(Session &session, Bytes &in) {
@@ -335,7 +353,15 @@ constexpr Step steps[] = {run,
                           run_another_way,
                           ask_texts,
                           call_with_nothing,
-                          make_wrong_context};
+                          make_wrong_context,
+                          submit_field,
+                          submit_field,
+                          submit_flags,
+                          set_target,
+                          set_target,
+                          fetch_field,
+                          fetch_stencil,
+                          transfer};
 
 Conditions decode_conditions(Bytes &in) {
   Conditions conditions;
@@ -357,7 +383,10 @@ extern "C" int LLVMFuzzerInitialize(int *, char ***) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
   fuzz::Bytes in(data, size);
   fuzz::Session session(fuzz::decode_conditions(in));
+  if (in.one_in(2)) fuzz::set_target(session, in);
   fuzz::submit_mesh(session, in);
+  for (std::size_t fields = in.one_in(4) ? 1 + in.below(2) : 0; fields > 0; fields--) session.submit_field(in);
+  if (in.one_in(8)) session.submit_flags(in);
   bool failed = session.run({}) == TETLOD_ERR_REMESH;
   for (int i = 0; i < fuzz::most_steps && !in.empty(); i++) fuzz::steps[in.below(std::size(fuzz::steps))](session, in);
   if (failed) fuzz::keep("remesh", data, size);

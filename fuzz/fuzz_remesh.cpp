@@ -121,15 +121,21 @@ Point between(const Point &a, const Point &b, double t) {
   return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])};
 }
 
+/// One after the other: a compiler may ask for arguments in any order.
+Point between_two(const Problem &problem, Bytes &in, bool middle) {
+  const Point &a = problem.points[in.below(problem.points.size())];
+  const Point &b = problem.points[in.below(problem.points.size())];
+  return between(a, b, middle ? 0.5 : in.fraction());
+}
+
 /// On a vertex, on an edge, somewhere in the hull, anywhere.
 Point decode_sample(const Problem &problem, Bytes &in) {
-  const auto vertex = [&] { return problem.points[in.below(problem.points.size())]; };
   switch (in.below(6)) {
-    case 0: return vertex();
-    case 1: return between(vertex(), vertex(), 0.5);
+    case 0: return problem.points[in.below(problem.points.size())];
+    case 1: return between_two(problem, in, true);
     case 2: return {in.real(), in.real(), in.real()};
     default: {
-      const Point a = between(vertex(), vertex(), in.fraction()), b = between(vertex(), vertex(), in.fraction());
+      const Point a = between_two(problem, in, false), b = between_two(problem, in, false);
       return between(a, b, in.fraction());
     }
   }

@@ -15,8 +15,9 @@ namespace fuzz {
 
 namespace {
 
-enum class Kind { reals, integers };
-__extension__ using Wide = __int128;  // numbers that cannot overflow
+enum class Kind { reals, integers, bytes };
+constexpr std::int32_t any_components = 0;  // 1 to 64, as many as the caller likes
+__extension__ using Wide = __int128;        // numbers that cannot overflow
 
 // ---- Arrays that make no sense -------------------------------------------------------------------------------------
 
@@ -45,7 +46,7 @@ class Wrongs {
  public:
   Wrongs(const tetlod_array &array, Kind kind, std::int32_t components) : array_(array) {
     add(array.struct_size < sizeof array, TETLOD_ERR_STRUCT_SIZE);
-    add(array.reserved != 0 || array.components != components || array.tuples < 0, TETLOD_ERR_ARGUMENT);
+    add(array.reserved != 0 || array.tuples < 0 || !is_number(array.components, components), TETLOD_ERR_ARGUMENT);
     add(!is_of(kind), TETLOD_ERR_ARGUMENT);
     if (is_wrong()) return;
     add(array.tuples > 0 && !array.data, TETLOD_ERR_ARGUMENT);
@@ -72,11 +73,15 @@ class Wrongs {
   }
 
  private:
+  static bool is_number(std::int32_t is, std::int32_t wanted) {
+    return wanted == any_components ? is >= 1 && is <= 64 : is == wanted;
+  }
   bool is_of(Kind kind) const {
+    if (kind == Kind::bytes) return array_.type == TETLOD_UINT8;
     if (kind == Kind::integers) return array_.type == TETLOD_INT32 || array_.type == TETLOD_INT64;
     return array_.type == TETLOD_FLOAT32 || array_.type == TETLOD_FLOAT64;
   }
-  std::int64_t element() const { return array_.type == TETLOD_INT32 || array_.type == TETLOD_FLOAT32 ? 4 : 8; }
+  std::int64_t element() const { return Layout{array_.type, 0, 1, 0, 0}.element(); }
 
   bool leaves_memory() const {
     if (array_.tuples <= 0) return false;
@@ -96,10 +101,10 @@ class Wrongs {
 
 /// A description at an address that may be wrong; null at times.
 template <class Call>
-void submit_tampered(const Block &block, Kind kind, Bytes &in, const Call &call) {
+void submit_tampered(const Block &block, Kind kind, std::int32_t components, Bytes &in, const Call &call) {
   constexpr std::int64_t most = (std::int64_t(1) << 29) - 1;
   const tetlod_array array = tamper(block.array(), in), before = array;
-  Wrongs wrongs(array, kind, block.layout().components);
+  Wrongs wrongs(array, kind, components);
   wrongs.add(array.tuples > most, TETLOD_ERR_MESH_TOO_LARGE);
   const tetlod_status status = call(&array);
   DEMAND(std::memcmp(&array, &before, sizeof array) == 0, "a description is not written to");
@@ -116,11 +121,16 @@ void submit_nonsense(Session &session, Bytes &in) {
   const Block points(decode_layout(in.one_in(2) ? TETLOD_FLOAT32 : TETLOD_FLOAT64, tuples, 3, in));
   const Block tets(decode_layout(in.one_in(2) ? TETLOD_INT32 : TETLOD_INT64, tuples, 4, in));
   const Block values(decode_layout(in.one_in(2) ? TETLOD_FLOAT32 : TETLOD_FLOAT64, tuples, 1, in));
-  submit_tampered(points, Kind::reals, in, [c](const tetlod_array *a) { return tetlod_submit_points(c, a); });
-  submit_tampered(tets, Kind::integers, in, [c](const tetlod_array *a) { return tetlod_submit_tets(c, a, 1); });
-  submit_tampered(values, Kind::reals, in, [c](const tetlod_array *a) { return tetlod_submit_scalars(c, "x", a); });
+  submit_tampered(points, Kind::reals, 3, in, [c](const tetlod_array *a) { return tetlod_submit_points(c, a); });
+  submit_tampered(tets, Kind::integers, 4, in, [c](const tetlod_array *a) { return tetlod_submit_tets(c, a, 1); });
+  submit_tampered(values, Kind::reals, 1, in, [c](const tetlod_array *a) { return tetlod_submit_scalars(c, "x", a); });
+  submit_tampered(tets, Kind::bytes, 1, in, [c](const tetlod_array *a) { return tetlod_submit_point_flags(c, a); });
+  submit_tampered(points, Kind::reals, any_components, in,
+                  [c](const tetlod_array *a) { return tetlod_submit_field(c, "f", TETLOD_CELL_FIELD, a); });
+  const Block flags(decode_layout(TETLOD_UINT8, tuples, 1, in));
+  submit_tampered(flags, Kind::bytes, 1, in, [c](const tetlod_array *a) { return tetlod_submit_point_flags(c, a); });
   const tetlod_array good = values.array();
-  submit_tampered(values, Kind::reals, in, [&](const tetlod_array *a) {
+  submit_tampered(values, Kind::reals, 1, in, [&](const tetlod_array *a) {
     const tetlod_status status = tetlod_submit_points_xyz(c, &good, a, &good);
     const bool shorter = status == TETLOD_ERR_ARGUMENT && a->tuples != good.tuples;
     return shorter ? (Wrongs(*a, Kind::reals, 1).is_wrong() ? status : TETLOD_OK) : status;
@@ -183,6 +193,10 @@ Session &finished() {
     Mesh mesh = grid_mesh(known_cells(2));
     for (const Point &p : mesh.points) mesh.values.push_back(p[0] + p[1] * p[2]);
     made->submit_all(mesh);
+    static const std::vector<double> halves(3 * mesh.points.size(), 0.5);
+    const tetlod_array field = {
+        sizeof field, TETLOD_FLOAT64, mesh.point_count(), 3, 0, 0, 0, const_cast<double *>(halves.data())};
+    DEMAND(tetlod_submit_field(made->context(), "halves", TETLOD_POINT_FIELD, &field) == TETLOD_OK, "a field is taken");
     DEMAND(made->run({}) == TETLOD_OK, "a cube can be simplified");
     return made;
   }();
@@ -225,12 +239,26 @@ bool is_rounded(const Block &block, std::int64_t i, std::int32_t c, double value
   return block.real(i, c) == (block.layout().type == TETLOD_FLOAT64 ? value : double(float(value)));
 }
 
+/// One of the two arrays is in order.
+void fetch_stencil(Bytes &in, std::int64_t points) {
+  const tetlod_context *const c = finished().context();
+  const Block other(packed(in.one_in(2) ? TETLOD_FLOAT64 : TETLOD_INT32, points, 4));
+  tetlod_array sound = other.array();
+  const auto at_least = [](const Block &b, std::int64_t i, std::int32_t k) { return b.real(i, k) >= 0; };
+  if (sound.type == TETLOD_INT32)
+    return fetch(
+        in, Kind::reals, points, 4, [&](tetlod_array *a) { return tetlod_fetch_stencil(c, 0, &sound, a); }, at_least);
+  return fetch(
+      in, Kind::integers, points, 4, [&](tetlod_array *a) { return tetlod_fetch_stencil(c, 1, a, &sound); },
+      [](const Block &b, std::int64_t i, std::int32_t k) { return b.integer(i, k) >= 1; });
+}
+
 void fetch_something(Bytes &in) {
   const Session &session = finished();
   const tetlod_context *const c = session.context();
   const Fetched &last = session.last();
   const auto base = std::int32_t(in.below(2));
-  switch (in.below(4)) {
+  switch (in.below(6)) {
     case 0:
       return fetch(
           in, Kind::reals, std::int64_t(last.points.size()), 3,
@@ -252,6 +280,12 @@ void fetch_something(Bytes &in) {
           [&](const Block &b, std::int64_t i, std::int32_t k) {
             return b.integer(i, k) == last.boundary[std::size_t(i)][std::size_t(k)] + base;
           });
+    case 3:
+      return fetch(
+          in, Kind::reals, std::int64_t(last.points.size()), 3,
+          [&](tetlod_array *a) { return tetlod_fetch_field(c, "halves", a); },
+          [](const Block &b, std::int64_t i, std::int32_t k) { return b.real(i, k) == 0.5; });
+    case 4: return fetch_stencil(in, std::int64_t(last.points.size()));
     default:
       return fetch(
           in, Kind::reals, std::int64_t(last.values.size()), 1,

@@ -120,8 +120,10 @@ void Block::set(std::int64_t tuple, std::int32_t component, double value) {
 void Block::set_integer(std::int64_t tuple, std::int32_t component, std::int64_t value) {
   if (layout_.type == TETLOD_INT64)
     put(at(tuple, component), value);
-  else
+  else if (layout_.type == TETLOD_INT32)
     put(at(tuple, component), std::int32_t(value));
+  else
+    put(at(tuple, component), std::uint8_t(value));
 }
 
 double Block::real(std::int64_t tuple, std::int32_t component) const {
@@ -129,8 +131,11 @@ double Block::real(std::int64_t tuple, std::int32_t component) const {
 }
 
 std::int64_t Block::integer(std::int64_t tuple, std::int32_t component) const {
-  return layout_.type == TETLOD_INT64 ? got<std::int64_t>(at(tuple, component))
-                                      : std::int64_t(got<std::int32_t>(at(tuple, component)));
+  switch (layout_.type) {
+    case TETLOD_INT64: return got<std::int64_t>(at(tuple, component));
+    case TETLOD_INT32: return got<std::int32_t>(at(tuple, component));
+    default: return got<std::uint8_t>(at(tuple, component));
+  }
 }
 
 std::vector<unsigned char> Block::bytes() {

@@ -96,7 +96,8 @@ Mesh Session::mesh() const {
 
 void Session::clear() {
   DEMAND(tetlod_clear(context_) == TETLOD_OK, "what is submitted can be forgotten");
-  points_ = tets_ = values_ = nullptr;
+  points_ = tets_ = values_ = flags_ = nullptr;
+  fields_.clear();
 }
 
 double Session::option(std::int32_t number) const {
@@ -242,11 +243,15 @@ tetlod_status Session::run(const Disturbance &disturbance) {
                     TETLOD_ERR_MESH_INDEX, TETLOD_ERR_MESH_NONFINITE, TETLOD_ERR_MESH_DEGENERATE,
                     TETLOD_ERR_MESH_NONMANIFOLD, TETLOD_ERR_MESH_INTERSECTING, TETLOD_ERR_MESH_TOO_LARGE});
   check_trouble("tetlod_run", status, disturbance);
-  const bool counts_fit = mesh.points.size() == mesh.values.size();
+  const bool counts_fit = mesh.points.size() == mesh.values.size() && fields_fit();
+  if (complete() && counts_fit && !flags_fit()) {
+    DEMAND(status != TETLOD_OK, "flags without a meaning, or too few of them, are no success");
+    return check_kept(), status;
+  }
   if (!complete())
     DEMAND(status == TETLOD_ERR_STATE, "nothing is run without input: %d", status);
   else if (!counts_fit)
-    DEMAND(status == TETLOD_ERR_ARGUMENT, "a value a point: %d", status);
+    DEMAND(status == TETLOD_ERR_ARGUMENT, "a value a point, a tuple a point or tet: %d", status);
   else
     DEMAND(status != TETLOD_ERR_ARGUMENT && status != TETLOD_ERR_STATE, "%d: %s", status, said_.c_str());
   if (!complete() || !counts_fit) return check_kept(), status;
@@ -267,6 +272,7 @@ void Session::check_kept() {
     return;
   }
   DEMAND(same(*last_, fetch(context_)), "a failure leaves the result as it was");
+  check_carried_kept();
 }
 
 void Session::estimate(const Disturbance &disturbance) {

@@ -1,6 +1,7 @@
 // A host with one context: what it has submitted, set and been given, so that every call can be compared with what the
 // header promises.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <initializer_list>
@@ -39,6 +40,12 @@ struct Disturbance {
 };
 Disturbance decode_disturbance(Bytes &in);
 
+/// A vertex of a result as a mean of original ones, with numbers from 0.
+struct Stencil {
+  std::vector<std::array<std::int64_t, 4>> ids;
+  std::vector<std::array<double, 4>> weights;
+};
+
 /// A status of a call that is documented for it, beside those that any call may return.
 void check_documented(const char *call, tetlod_status status, std::initializer_list<tetlod_status> documented);
 
@@ -63,6 +70,8 @@ class Session {
   /// Packed, in the widest types, with this index base.
   void submit_plain(const Mesh &mesh, std::int32_t base);
   std::int32_t base() const { return base_; }
+  void submit_field(Bytes &in);
+  void submit_flags(Bytes &in);
   void clear();
   bool complete() const { return points_ && tets_ && values_; }
 
@@ -77,12 +86,27 @@ class Session {
   void check(const Disturbance &disturbance);
   void estimate(const Disturbance &disturbance);
 
+  // Of the fields, into any layout and room.
+  void fetch_field(Bytes &in);
+  void fetch_stencil(Bytes &in);
+  void transfer(Bytes &in);
+
   /// The result is the one that the last successful run gave.
   void check_kept();
   std::string message() const;
 
  private:
   struct Callbacks;
+  struct Field {
+    std::string name;
+    std::int32_t association;
+    Block *values;
+  };
+  /// What became of a field in the last successful run.
+  struct Carried {
+    Field field;
+    std::vector<double> values;
+  };
 
   tetlod_status disturbed(const Disturbance &disturbance, const std::function<tetlod_status()> &call);
   void check_trouble(const char *call, tetlod_status status, const Disturbance &disturbance) const;
@@ -92,6 +116,20 @@ class Session {
   bool repairs(std::int32_t policy) const;  ///< TETLOD_OPT_ON_...
   bool policies_repair() const;             ///< all of those whose defects a sound mesh may have
   bool undisturbed_success_expected(const Mesh &mesh) const;
+  void check_target() const;
+
+  bool fields_fit() const;
+  bool flags_fit() const;
+  std::vector<double> carried(const Field &field) const;
+  Stencil stencil() const;
+  tetlod_status stencil_status() const;
+  bool explains_limit(tetlod_status status) const;
+  void accept_fields(const Mesh &mesh);
+  void check_carried_kept() const;
+  void check_stencil(const Mesh &mesh, const Stencil &stencil) const;
+  void check_point_field(const Stencil &stencil, const Carried &carried) const;
+  void check_cell_fields() const;
+  void check_flags(const Mesh &mesh, const Facts &facts) const;
 
   Conditions conditions_;
   Allocator allocator_;
@@ -99,10 +137,15 @@ class Session {
   bool children_before_ = false;  ///< libFuzzer has one at times
   tetlod_context *context_ = nullptr;
   std::vector<std::unique_ptr<Block>> blocks_;
-  Block *points_ = nullptr, *tets_ = nullptr, *values_ = nullptr;
+  Block *points_ = nullptr, *tets_ = nullptr, *values_ = nullptr, *flags_ = nullptr;
   std::int32_t base_ = 0;
+  std::vector<Field> fields_;
   long sound_points_ = 0, sound_tets_ = 0, sound_values_ = 0;  ///< of which sound mesh they are
   std::optional<Fetched> last_;
+  std::vector<Carried> carried_;
+  Block *last_points_ = nullptr, *last_tets_ = nullptr, *last_values_ = nullptr;  ///< the input of last_
+  std::int32_t last_base_ = 0;
+  bool stencil_known_ = false;  ///< no array is read for it any more
   std::uint64_t hash_ = 0;
   std::string said_;  ///< the message of the last call that worked
   long fired_ = 0;    ///< disturbances that came to pass in the last call

@@ -136,6 +136,7 @@ void Session::accept(const Mesh &mesh, const Facts &facts) {
   if (option(TETLOD_OPT_MERGE_TOLERANCE) == 0 && !facts.wide) {
     check_result(mesh, facts, *last_);
     check_report(mesh, facts);
+    check_flags(mesh, facts);
   } else {  // which points merge, or which tets are flat, is not found out again
     check_positive(last_->points, last_->tets);
     check_conforming(last_->tets, last_->boundary);
@@ -146,6 +147,23 @@ void Session::accept(const Mesh &mesh, const Facts &facts) {
   report.struct_size = sizeof report;
   tetlod_fetch_report(context_, &report);
   hash_ = report.hash;
+  check_target();
+  accept_fields(mesh);
+}
+
+/// The bound is held, by what the report says and by what is measured.
+void Session::check_target() const {
+  const double bound = option(TETLOD_OPT_MAX_ERROR);
+  if (bound <= 0) return;
+  tetlod_run_report report{};
+  report.struct_size = sizeof report;
+  tetlod_fetch_report(context_, &report);
+  DEMAND(report.max_error <= bound, "max-error %.17g: the report has %.17g", bound, report.max_error);
+  tetlod_error_report error{};
+  error.struct_size = sizeof error;
+  const tetlod_status status = tetlod_measure_error(context_, 0, &error);
+  DEMAND(status == TETLOD_OK || explains_limit(status), "a run can be measured: %d", status);
+  if (status == TETLOD_OK) DEMAND(error.max <= bound, "max-error %.17g: %.17g is measured", bound, error.max);
 }
 
 void Session::check_report(const Mesh &mesh, const Facts &facts) const {
@@ -221,14 +239,15 @@ void Session::check(const Disturbance &disturbance) {
   same_count("duplicate", report.duplicate, facts.duplicate);
   same_count("nonmanifold_faces", report.nonmanifold_faces, facts.nonmanifold_faces);
   same_count("unused", report.unused, facts.unused);
-  if (!complete() || disturbance.any()) return;
+  if (!complete() || disturbance.any() || !fields_fit()) return;
   const tetlod_status after = run({});
   if (after == TETLOD_ERR_MEMORY_LIMIT || after == TETLOD_ERR_TIME_LIMIT) return;
   if (report.status == TETLOD_ERR_MESH_INTERSECTING && after == TETLOD_OK) return;  // decimation took the crossing away
   if (report.status != TETLOD_OK)
     DEMAND(after == report.status, "tetlod_check says %d, tetlod_run %d: %s", report.status, after, said_.c_str());
   else if (after != TETLOD_ERR_MESH_DEGENERATE || mesh.sound)  // too thin for the remesher: it is not called to check
-    DEMAND(after == TETLOD_OK || after == TETLOD_ERR_REMESH || after == TETLOD_ERR_BACKEND_MISSING,
+    DEMAND(after == TETLOD_OK || after == TETLOD_ERR_REMESH || after == TETLOD_ERR_BACKEND_MISSING ||
+               after == TETLOD_ERR_MAX_ERROR,
            "tetlod_check says nothing, tetlod_run %d: %s", after, said_.c_str());
 }
 

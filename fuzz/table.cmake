@@ -9,7 +9,7 @@ set(broken "")
 
 function(sources_of target result)
   set(text "")
-  foreach(name fuzz_${target} session session_mesh)
+  foreach(name fuzz_${target} session session_fields session_mesh)
     if(EXISTS ${FUZZ}/${name}.cpp)
       file(READ ${FUZZ}/${name}.cpp source)
       string(APPEND text "${source}")
