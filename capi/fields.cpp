@@ -52,11 +52,11 @@ const CarriedField &carried_field(const Result &result, const char *name) {
 const Stencil &stencil_of(tetlod_context &context) {
   Outcome &outcome = last_outcome(context);
   if (outcome.result.stencil.ids.empty()) {
-    require_input_of(outcome, context.input);
+    const Input original = original_of(outcome, context.input);
     begin(context);
     Job job(context.memory, context.parallel);
     connect_log(job, context);
-    find_stencil(context.input, outcome.options, job, outcome.result);
+    find_stencil(original, outcome.options, job, outcome.result);
   }
   return outcome.result.stencil;
 }

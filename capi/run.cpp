@@ -100,10 +100,12 @@ tetlod_status tetlod_measure_error(tetlod_context *handle, int32_t samples_per_t
     require_struct(out, "out", TETLOD_SIZE_TO(tetlod_error_report, outside_inner));
     require_samples(samples_per_tet);
     const Outcome &outcome = last_outcome(context);
-    require_input_of(outcome, context.input);
+    const Input original = original_of(outcome, context.input);
+    Options options = outcome.options;
+    options.seed = context.options.seed;
     Job job(context.memory, context.parallel);
     connect_log(job, context);
-    const FieldError error = measure_error(context.input, context.options, outcome.result.mesh, samples_per_tet, job);
+    const FieldError error = measure_error(original, options, outcome.result.mesh, samples_per_tet, job);
     copy_struct(report_of(error, samples_per_tet), out);
   });
 }
@@ -113,12 +115,12 @@ tetlod_status tetlod_histogram(const tetlod_context *handle, int32_t side, int32
     require_bins(side, bins);
     require_pointer(counts, "counts");
     const Outcome &outcome = last_outcome(context);
-    if (side == 0) require_input_of(outcome, context.input);
     const Report &report = outcome.result.report;
     const Span<std::int64_t> room(counts, std::size_t(bins));
+    const StridedArray values = side == 0 ? original_of(outcome, context.input).scalars : StridedArray();
     std::fill(room.begin(), room.end(), 0);
     if (side == 0)
-      count_values(context.input.scalars, report.scalar_min, report.scalar_max, room);
+      count_values(values, report.scalar_min, report.scalar_max, room);
     else
       histogram(outcome.result.mesh.scalars, report.scalar_min, report.scalar_max, room);
   });

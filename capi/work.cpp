@@ -65,9 +65,13 @@ void require_submitted(const Input &input) {
   require_submitted(input.scalars, "scalars");
 }
 
-void require_input_of(const Outcome &outcome, const Input &input) {
-  require_submitted(input);
-  if (!same(outcome.input, input)) fail(Status::state, "the arrays of the last run are not submitted any more");
+Input original_of(const Outcome &outcome, const Input &now) {
+  require_submitted(now);
+  if (!same(outcome.input, now)) fail(Status::state, "the arrays of the last run are not submitted any more");
+  Input original = outcome.input;
+  original.flags = {};
+  original.fields.clear();
+  return original;
 }
 
 void begin(tetlod_context &context) {

@@ -1,9 +1,8 @@
 #include "surface_topology.hpp"
 
 #include <algorithm>
-#include <cmath>
 
-#include "geometry.hpp"
+#include "predicates.hpp"
 #include "status.hpp"
 
 namespace tetlod {
@@ -98,23 +97,32 @@ class TopologyFinder {
     out_.mate[std::size_t(b)] = a;
   }
 
-  /// Counter-clockwise around the edge, seen from its higher end.
+  /// Counter-clockwise around the edge, seen from its higher end. Exact: what belongs together is found again after
+  /// decimation, also in a plate that is thinner than rounding.
   void sort_by_angle(std::size_t begin, std::size_t end) {
     const std::int32_t some = sorted_[begin].id;
-    const Vec3 &low = points_[std::size_t(low_end(some))];
-    const Vec3 axis = points_[std::size_t(sorted_[begin].high)] - low;
-    const Vec3 x = points_[std::size_t(apex(some))] - low;
-    const Vec3 across = glm::cross(axis, x), along = glm::cross(across, axis);
-    const double scale = glm::length(axis);
-    const auto angle = [&](const HalfEdge &h) {
-      const Vec3 d = points_[std::size_t(apex(h.id))] - low;
-      return h.id == some ? 0.0 : std::atan2(glm::dot(d, across) * scale, glm::dot(d, along));
-    };
+    const Vec3 &low = points_[std::size_t(low_end(some))], &high = points_[std::size_t(sorted_[begin].high)];
+    const Vec3 &first = points_[std::size_t(apex(some))];
     std::sort(sorted_.begin() + std::ptrdiff_t(begin), sorted_.begin() + std::ptrdiff_t(end),
               [&](const HalfEdge &a, const HalfEdge &b) {
-                const double p = angle(a), q = angle(b);
-                return p != q ? p < q : a.id < b.id;
+                const Vec3 &p = points_[std::size_t(apex(a.id))], &q = points_[std::size_t(apex(b.id))];
+                const int half = half_around(low, high, first, p), other = half_around(low, high, first, q);
+                if (half != other) return half < other;
+                const int order = half % 2 ? orientation(low, high, p, q) : 0;
+                return order != 0 ? order > 0 : a.id < b.id;
               });
+  }
+
+  /// Of p around the edge, from the plane of `first` on: 0 in that half-plane, 1 before the opposite one, 2 in it, 3
+  /// beyond it.
+  static int half_around(const Vec3 &low, const Vec3 &high, const Vec3 &first, const Vec3 &p) {
+    const int side = orientation(low, high, first, p);
+    if (side != 0) return side > 0 ? 1 : 3;
+    for (int k = 0; k < 3; k++) {
+      const int i = next(k), j = next(i), way = turn(low, high, first, i, j);
+      if (way != 0) return turn(low, high, p, i, j) == -way ? 2 : 0;
+    }
+    return 0;
   }
 
   /// Corners around a vertex that mates join are one vertex of the cut surface.
