@@ -8,6 +8,7 @@ namespace {
 
 constexpr double pull = 1e-3;  // of the mean diagonal
 constexpr std::size_t block = 256;
+constexpr std::size_t many = 1 << 15;  // tets between two polls of passes that do little with each
 
 /// What the probes of one tet add to the normal equations of its corners.
 struct Normal {
@@ -39,14 +40,18 @@ Normal normal_of(const AdaptiveMesh &mesh, std::int32_t t) {
 class Fit {
  public:
   Fit(AdaptiveMesh &mesh, Job &job)
-      : mesh_(mesh), job_(job), normals_(mesh.tets.size(), Normal{}, &job.memory), pull_(pull) {
+      : mesh_(mesh), job_(job), normals_(&job.memory), pull_(pull) {
+    make_room();
     job.parallel.for_blocks(normals_.size(), block, [&](std::size_t begin, std::size_t end) {
       for (std::size_t t = begin; t < end; t++)
         if (mesh_.alive(std::int32_t(t))) normals_[t] = normal_of(mesh_, std::int32_t(t));
+      job.poll(0.5);
     });
     double sum = 0;
-    for (const Normal &n : normals_)
-      for (int i = 0; i < 4; i++) sum += n.w[i][i];
+    for (std::size_t t = 0; t < normals_.size(); t++) {
+      poll_at(t);
+      for (int i = 0; i < 4; i++) sum += normals_[t].w[i][i];
+    }
     pull_ = pull * sum / double(mesh.points.size()) + 1e-300;
   }
 
@@ -54,15 +59,16 @@ class Fit {
     const std::size_t count = mesh_.points.size();
     Array<double> x(count, 0.0, &job_.memory), r(count, 0.0, &job_.memory), p(&job_.memory),
         image(count, 0.0, &job_.memory);
-    for (std::size_t t = 0; t < normals_.size(); t++)
+    for (std::size_t t = 0; t < normals_.size(); t++) {
+      poll_at(t);
       if (mesh_.alive(std::int32_t(t)))
         for (std::size_t k = 0; k < 4; k++) r[std::size_t(mesh_.tets[t][k])] -= normals_[t].r[k];
+    }
     leave_kept(r);
     p.assign(r.begin(), r.end());
     double rr = dot(r, r);
     const double start = rr;
     for (int step = 0; step < steps && rr > 1e-12 * start; step++) {
-      job_.poll(0.5);
       apply(p, image);
       const double alpha = rr / dot(p, image);
       for (std::size_t i = 0; i < count; i++) {
@@ -77,6 +83,19 @@ class Fit {
   }
 
  private:
+  void poll_at(std::size_t t) const {
+    if (t % many == 0) job_.poll(0.5);
+  }
+
+  /// Touching so much memory for the first time takes as long as filling it.
+  void make_room() {
+    normals_.reserve(mesh_.tets.size());
+    while (normals_.size() < mesh_.tets.size()) {
+      poll_at(0);
+      normals_.resize(std::min(normals_.size() + many, mesh_.tets.size()), Normal{});
+    }
+  }
+
   static double dot(const Array<double> &a, const Array<double> &b) {
     double sum = 0;
     for (std::size_t i = 0; i < a.size(); i++) sum += a[i] * b[i];
@@ -86,6 +105,7 @@ class Fit {
   void apply(const Array<double> &x, Array<double> &image) const {
     for (std::size_t i = 0; i < x.size(); i++) image[i] = pull_ * x[i];
     for (std::size_t t = 0; t < normals_.size(); t++) {
+      poll_at(t);
       if (!mesh_.alive(std::int32_t(t))) continue;
       const Tet &tet = mesh_.tets[t];
       for (std::size_t i = 0; i < 4; i++) {
@@ -106,6 +126,7 @@ class Fit {
   void take(const Array<double> &change) {
     Array<double> low(mesh_.values, &job_.memory), high(mesh_.values, &job_.memory);
     for (std::size_t t = 0; t < normals_.size(); t++) {
+      poll_at(t);
       if (!mesh_.alive(std::int32_t(t))) continue;
       for (std::int32_t v : mesh_.tets[t]) {
         low[std::size_t(v)] = std::min(low[std::size_t(v)], normals_[t].low);
@@ -129,6 +150,7 @@ void fit_values(int steps, Job &job, AdaptiveMesh &mesh) {
   job.parallel.for_blocks(mesh.tets.size(), block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; t++)
       if (mesh.alive(std::int32_t(t))) mesh.measure(std::int32_t(t));
+    job.poll(0.5);
   });
 }
 

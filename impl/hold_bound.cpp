@@ -105,9 +105,10 @@ class Bound {
 
 }  // namespace
 
-LargestError largest_error(const AdaptiveMesh &mesh) {
+LargestError largest_error(const AdaptiveMesh &mesh, Job &job) {
   LargestError largest;
   for (std::size_t t = 0; t < mesh.tets.size(); t++) {
+    if (t % 4096 == 0) job.poll(0.9);
     if (!mesh.alive(std::int32_t(t))) continue;
     const LargestError here = largest_in(mesh, std::int32_t(t));
     if (here.value > largest.value) largest = here;

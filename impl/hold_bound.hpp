@@ -11,7 +11,7 @@ struct LargestError {
 };
 
 /// At the probes of original vertices that lie in a tet.
-LargestError largest_error(const AdaptiveMesh &mesh);
+LargestError largest_error(const AdaptiveMesh &mesh, Job &job);
 
 /// Makes original vertices, with their values, vertices of the mesh where it is off by more than `bound`, the worst of
 /// each tet first, until there is none; those on the boundary divide its faces. Returns how many are left where that

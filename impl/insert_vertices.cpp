@@ -106,10 +106,11 @@ std::int64_t insert_vertices(std::int64_t tets, Job &job, AdaptiveMesh &mesh) {
   Array<std::int32_t> worst(&job.memory);
   for (std::size_t t = 0; t < mesh.tets.size(); t++)
     if (mesh.alive(std::int32_t(t)) && mesh.error[t] > 0) worst.push_back(std::int32_t(t));
-  std::sort(worst.begin(), worst.end(), [&](std::int32_t a, std::int32_t b) {
+  const auto worse = [&](std::int32_t a, std::int32_t b) {
     const double x = mesh.error[std::size_t(a)], y = mesh.error[std::size_t(b)];
     return x != y ? x > y : a < b;
-  });
+  };
+  std::sort(worst.begin(), worst.end(), PollingLess(job, 0.5, worse));
   const auto goal = std::int64_t(mesh.count()) + tets;
   std::int64_t inserted = 0;
   for (std::size_t i = 0; i < worst.size() && std::int64_t(mesh.count()) < goal; i++) {

@@ -51,4 +51,22 @@ class Job {
   Clock::time_point last_call_{};
 };
 
+/// less, for std::sort of many, that polls as it goes.
+template <class Less>
+class PollingLess {
+ public:
+  PollingLess(Job &job, double fraction, Less less) : job_(&job), fraction_(fraction), less_(less) {}
+  template <class T>
+  bool operator()(const T &a, const T &b) {
+    if (++calls_ % (1 << 15) == 0) job_->poll(fraction_);
+    return less_(a, b);
+  }
+
+ private:
+  Job *job_;
+  double fraction_;
+  Less less_;
+  std::uint32_t calls_ = 0;
+};
+
 }  // namespace tetlod

@@ -84,7 +84,10 @@ Probe probe_inside(const MeshView &original, const Tet &t, std::uint64_t key) {
 
 void add_inner(const MeshView &original, double most, Job &job, Array<Probe> &probes) {
   double sum = 0;
-  for (const Tet &t : original.tets) sum += change_of(original, t);
+  for (std::size_t i = 0; i < original.tets.size(); i++) {
+    if (i % 16384 == 0) job.poll(0);
+    sum += change_of(original, original.tets[i]);
+  }
   const double count = double(original.tets.size()), mean = sum / count;
   const double more = std::clamp(std::sqrt(small_mesh / count), 1.0, most_for_small);
   const double scale = std::min(more, most / (count * (everywhere + by_change)));
@@ -104,6 +107,7 @@ class Locator {
     Array<Box> boxes(mesh.tets.size(), &job.memory);
     frames_.resize(mesh.tets.size());
     for (std::size_t t = 0; t < mesh.tets.size(); t++) {
+      if (t % 16384 == 0) job.poll(0.1);
       if (!mesh.alive(std::int32_t(t))) continue;
       start_ = std::int32_t(t);
       frames_[t] = mesh.frame(std::int32_t(t));
@@ -223,10 +227,15 @@ std::int64_t place_probes(const MeshView &original, const ProbeOptions &options,
   sort_by_home(mesh.vertex_probes, home.size(), mesh, home);
   mesh.next_probe.assign(home.size(), -1);
   mesh.first_probe.assign(mesh.tets.size(), -1);
-  for (std::size_t i = home.size(); i-- > 0;)
+  for (std::size_t i = home.size(); i-- > 0;) {
+    if (i % 65536 == 0) job.poll(0.2);
     if (home[i] >= 0) mesh.put_probe(std::int32_t(i), home[i]);
-  for (std::size_t t = 0; t < mesh.tets.size(); t++)
-    if (mesh.alive(std::int32_t(t))) mesh.measure(std::int32_t(t));
+  }
+  job.parallel.for_blocks(mesh.tets.size(), block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; t++)
+      if (mesh.alive(std::int32_t(t))) mesh.measure(std::int32_t(t));
+    job.poll(0.2);
+  });
   return outside;
 }
 

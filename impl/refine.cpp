@@ -42,7 +42,7 @@ class Refinement {
     fit_values(last_fit_steps, job_, mesh_);
     place_probes(original_, every_vertex(), job_, mesh_);
     if (options_.bound > 0) report_.beyond_bound = hold_bound(options_.bound, job_, mesh_);
-    report_.max_error = largest_error(mesh_).value;
+    report_.max_error = largest_error(mesh_, job_).value;
     count_points();
     write();
     return report_;
@@ -117,6 +117,7 @@ class Refinement {
         out_.scalars.push_back(mesh_.values[v]);
       }
     for (std::size_t t = 0; t < mesh_.tets.size(); t++) {
+      if (t % 65536 == 0) job_.poll(1);
       if (!mesh_.alive(std::int32_t(t))) continue;
       Tet tet = mesh_.tets[t];
       for (std::int32_t &v : tet) v = number[std::size_t(v)];

@@ -14,6 +14,8 @@ constexpr double thinnest = 1.5;
 /// Leaves of so few points look perfect to a linear fit; they get a part of the mean error a point.
 constexpr std::size_t few = 8;
 constexpr double doubt = 0.2;
+/// Points to look at between two polls.
+constexpr std::size_t many = 1 << 15;
 
 /// Sums over points, relative to `centre`, for a linear fit.
 struct Moments {
@@ -73,7 +75,11 @@ class ResidualTree {
     Array<Leaf> done(&job_.memory);
     std::size_t step = 0;
     while (heap_.size() && useful_ < target) {
-      if (step++ % 64 == 0) job_.poll(double(useful_) / double(target));
+      work_ += heap_.front().end - heap_.front().begin;
+      if (++step % 64 == 0 || work_ > many) {
+        job_.poll(double(useful_) / double(target));
+        work_ = 0;
+      }
       std::pop_heap(heap_.begin(), heap_.end(), less);
       const Leaf worst = heap_.back();
       heap_.pop_back();
@@ -174,6 +180,7 @@ class ResidualTree {
   Array<Leaf> heap_;
   double mean_ = 0;
   std::size_t useful_ = 0;
+  std::size_t work_ = 0;  // points of the leaves that were split since the last poll
 };
 
 }  // namespace
