@@ -59,7 +59,8 @@ contains
     integer(c_int64_t) :: n
     n = size(a, kind=c_int64_t)
     array = shaped(TETLOD_FLOAT32, 1_c_int64_t, n)
-    if (n > 0) array = described(TETLOD_FLOAT32, 1_c_int64_t, n, c_loc(a(1)), c_loc(a(1)), c_loc(a(min(2_c_int64_t, n))))
+    if (n > 0) array = described(TETLOD_FLOAT32, 1_c_int64_t, n, c_loc(a(1)), c_loc(a(1)), &
+      c_loc(a(min(2_c_int64_t, n))))
   end function
 
   function r32_tuples(a) result(array)
@@ -79,7 +80,8 @@ contains
     integer(c_int64_t) :: n
     n = size(a, kind=c_int64_t)
     array = shaped(TETLOD_FLOAT64, 1_c_int64_t, n)
-    if (n > 0) array = described(TETLOD_FLOAT64, 1_c_int64_t, n, c_loc(a(1)), c_loc(a(1)), c_loc(a(min(2_c_int64_t, n))))
+    if (n > 0) array = described(TETLOD_FLOAT64, 1_c_int64_t, n, c_loc(a(1)), c_loc(a(1)), &
+      c_loc(a(min(2_c_int64_t, n))))
   end function
 
   function r64_tuples(a) result(array)

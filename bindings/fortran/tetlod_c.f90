@@ -1,4 +1,5 @@
-! The functions of tetlod.h as they are: tetlod_x is c_x here. For the modules of this folder; programs use module tetlod.
+! The functions of tetlod.h as they are: tetlod_x is c_x here. For the modules of this folder; programs use module
+! tetlod.
 module tetlod_c
   use, intrinsic :: iso_c_binding, only: c_double, c_funptr, c_int32_t, c_int64_t, c_ptr, c_size_t
   use tetlod_types, only: tetlod_array, tetlod_bounds, tetlod_config, tetlod_error_report, tetlod_mesh_report, &
