@@ -12,16 +12,13 @@
 #include <string>
 #include <vector>
 
-#include "arrays.hpp"
-#include "carried_arrays.hpp"
+#include "bytes.hpp"
 #include "demand.hpp"
 #include "failure.hpp"
-#include "grid_cells.hpp"
+#include "host.hpp"
+#include "original.hpp"
 #include "quiet_vtk.hpp"
 #include "read_grid.hpp"
-#include "session.hpp"
-#include "simplify.hpp"
-#include "steering_field.hpp"
 
 namespace fuzz {
 
@@ -61,16 +58,6 @@ void write_values(std::ostream &out) {
   out << '\n';
 }
 
-void write_vectors(std::ostream &out) {
-  for (std::size_t i = 0; i < std::size(places); i++) out << i << ' ' << 2.5 << ' ' << -double(i) << '\n';
-}
-
-/// A number of a region for each.
-void write_regions(std::ostream &out, const Cells &cells) {
-  for (std::size_t c = 0; c < cells.size(); c++) out << 10 + c % 3 << ' ';
-  out << '\n';
-}
-
 std::string legacy_file(const Cells &cells) {
   std::ostringstream out;
   out << "# vtk DataFile Version 3.0\nmade\nASCII\nDATASET UNSTRUCTURED_GRID\n";
@@ -88,10 +75,6 @@ std::string legacy_file(const Cells &cells) {
   for (const Cell &cell : cells) out << cell.type << '\n';
   out << "POINT_DATA " << std::size(places) << "\nSCALARS field double 1\nLOOKUP_TABLE default\n";
   write_values(out);
-  out << "VECTORS velocity float\n";
-  write_vectors(out);
-  out << "CELL_DATA " << cells.size() << "\nSCALARS region int 1\nLOOKUP_TABLE default\n";
-  write_regions(out, cells);
   return out.str();
 }
 
@@ -107,19 +90,14 @@ std::string xml_file(const Cells &cells) {
     out << "<DataArray type=\"" << type << "\" Name=\"" << name << "\" format=\"ascii\">\n"
         << text << "\n</DataArray>\n";
   };
-  std::ostringstream xyz, values, vectors, regions;
+  std::ostringstream xyz, values;
   write_places(xyz);
   write_values(values);
-  write_vectors(vectors);
-  write_regions(regions, cells);
   out << "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n";
   out << "<Piece NumberOfPoints=\"" << std::size(places) << "\" NumberOfCells=\"" << cells.size()
       << "\">\n<PointData>\n";
   array("Float64", "field", values.str());
-  array("Float32", "velocity\" NumberOfComponents=\"3", vectors.str());
-  out << "</PointData>\n<CellData>\n";
-  array("Int32", "region", regions.str());
-  out << "</CellData>\n<Points>\n";
+  out << "</PointData>\n<Points>\n";
   array("Float32", "Points\" NumberOfComponents=\"3", xyz.str());
   out << "</Points>\n<Cells>\n";
   array("Int64", "connectivity", corners.str());
@@ -254,62 +232,22 @@ class FileOnDisk {
   std::filesystem::path path_;
 };
 
-/// What is read goes to the library as the tool hands it over.
-void submit(const Session &session, const cli::TetMesh &mesh) {
-  const tetlod_array xyz = cli::borrowed(mesh.points, 3), tets = cli::borrowed(mesh.corners, 4),
-                     field = cli::borrowed(mesh.values, 1);
-  DEMAND(tetlod_submit_points(session.context(), &xyz) == TETLOD_OK, "points of a file are points");
-  DEMAND(tetlod_submit_tets(session.context(), &tets, 0) == TETLOD_OK, "tets of a file are tets");
-  DEMAND(tetlod_submit_scalars(session.context(), "field", &field) == TETLOD_OK, "values of a file are values");
-  for (const cli::CarriedArray &other : mesh.others) {
-    const tetlod_array array = cli::borrowed(other.reals, other.reals->GetNumberOfComponents());
-    const tetlod_status status = tetlod_submit_field(session.context(), other.key().c_str(), other.association, &array);
-    DEMAND(status == TETLOD_OK, "array %s of a file is a field: %d", other.name.c_str(), status);
-  }
+/// What is read goes to the library as the filter hands it over.
+void submit(const tetlod_vtk::Original &original) {
+  tetlod::Context context;
+  tetlod_vtk::submit(context, original);
+  context.check();  // a mesh of a file can be checked: what is wrong with it is in the report
 }
 
-void check(const Session &session) {
-  tetlod_mesh_report report{};
-  report.struct_size = sizeof report;
-  const tetlod_status status = tetlod_check(session.context(), &report);
-  DEMAND(status == TETLOD_OK, "a mesh of a file can be checked: %d", status);
-}
-
-/// Every array of the file is one of the result.
-void run(const Session &session, const cli::TetMesh &mesh) {
-  const tetlod_status status = tetlod_run(session.context());
-  DEMAND(status != TETLOD_ERR_ARGUMENT && status != TETLOD_ERR_STATE, "a mesh of a file can be run: %d", status);
-  check_documented("tetlod_run", status,
-                   {TETLOD_ERR_TIME_LIMIT, TETLOD_ERR_REMESH, TETLOD_ERR_MESH_EMPTY, TETLOD_ERR_MESH_INDEX,
-                    TETLOD_ERR_MESH_NONFINITE, TETLOD_ERR_MESH_DEGENERATE, TETLOD_ERR_MESH_NONMANIFOLD,
-                    TETLOD_ERR_MESH_INTERSECTING});
-  if (status != TETLOD_OK) return;
-  std::int64_t points = 0, tets = 0;
-  tetlod_fetch_counts(session.context(), &points, &tets, nullptr);
-  for (const cli::CarriedArray &other : mesh.others) {
-    const std::int64_t tuples = other.association == TETLOD_CELL_FIELD ? tets : points;
-    const auto made = cli::fetch_carried(session.context(), other, tuples);
-    DEMAND(made->GetNumberOfTuples() == tuples && made->GetDataType() == other.type, "array %s is in the result",
-           other.name.c_str());
-  }
-}
-
-/// As the tool does it: what goes wrong is a Failure, or memory that is not there.
-void read(const std::string &path, bool runs) {
+/// As the tool and the filter do it: what goes wrong is a Failure or a std::runtime_error, or memory that is not there.
+void read(const std::string &path) {
   const vtkSmartPointer<cli::VtkMessages> messages = vtkSmartPointer<cli::VtkMessages>::New();
   messages->install();
   std::vector<std::string> notes;
   const auto grid = cli::read_grid(path, *messages, notes);
-  vtkDataArray *const field = cli::steering_field(*grid, {});
-  const cli::Tets tets = cli::tets_of(*grid, notes);
-  const cli::TetMesh mesh{cli::as_reals(grid->GetPoints()->GetData()), tets.corners, cli::as_reals(field), "field",
-                          cli::carried_arrays(*grid, field, tets, notes)};
+  const auto original = tetlod_vtk::original_of(grid, nullptr, nullptr, notes);
   messages->check(path, notes);
-  Session session({});
-  submit(session, mesh);
-  check(session);
-  if (runs) run(session, mesh);
-  session.clear();
+  submit(original);
 }
 
 }  // namespace
@@ -336,8 +274,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
   fuzz::trace("%s\n", file.text.c_str());
   const fuzz::FileOnDisk disk(file);
   try {
-    fuzz::read(disk.path(), size % 4 == 0);
-  } catch (const cli::Failure &failure) {
+    fuzz::read(disk.path());
+  } catch (const tetlod::Error &error) {
+    DEMAND(false, "what a file holds is submitted and checked: %d, %s", error.status(), error.what());
+  } catch (const std::runtime_error &failure) {
     fuzz::trace("%s\n", failure.what());
     DEMAND(*failure.what(), "a failure has a message");
   } catch (const std::bad_alloc &) {

@@ -63,19 +63,21 @@ void add_number(CLI::App &app, const NumberOption &option, Arguments &arguments)
   const tetlod_bounds bounds = bounds_of(number);
   const std::string flag = std::string("--") + option.name, help = help_of(option, bounds);
   if (bounds.is_integer != 0) {
-    const auto store = [number, &arguments](const int64_t &value) { arguments.integers[number] = value; };
+    const auto store = [number, &arguments](const int64_t &value) {
+      arguments.numbers[number] = static_cast<double>(value);
+    };
     app.add_option_function<int64_t>(flag, store, help)->type_name("N");
   } else {
-    const auto store = [number, &arguments](const double &value) { arguments.reals[number] = value; };
+    const auto store = [number, &arguments](const double &value) { arguments.numbers[number] = value; };
     app.add_option_function<double>(flag, store, help)->type_name("X");
   }
 }
 
 void add_policy(CLI::App &app, const NumberOption &option, Arguments &arguments) {
-  static const std::map<std::string, int64_t> words{{"error", TETLOD_POLICY_ERROR}, {"repair", TETLOD_POLICY_REPAIR}};
+  static const std::map<std::string, double> words{{"error", TETLOD_POLICY_ERROR}, {"repair", TETLOD_POLICY_REPAIR}};
   const int32_t number = tetlod_option_from_name(option.name);
   const bool repairs = bounds_of(number).preset == TETLOD_POLICY_REPAIR;
-  const auto store = [number, &arguments](const std::string &word) { arguments.integers[number] = words.at(word); };
+  const auto store = [number, &arguments](const std::string &word) { arguments.numbers[number] = words.at(word); };
   app.add_option_function<std::string>(std::string("--") + option.name, store,
                                        std::string(option.help) + (repairs ? " [repair]" : " [error]"))
       ->type_name("error|repair")
@@ -121,7 +123,6 @@ void check_endings(const Arguments &arguments) {
 
 std::optional<Arguments> parse_arguments(int argc, char **argv) {
   Arguments arguments;
-  arguments.integers[TETLOD_OPT_THREADS] = 0;
   arguments.command = joined(argc, argv);
   CLI::App app("Makes a tetrahedral mesh that carries a scalar field smaller.", "tetlod");
   app.set_version_flag("--version", std::string(tetlod_build_info()));

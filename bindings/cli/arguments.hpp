@@ -10,11 +10,10 @@ namespace cli {
 
 struct Arguments {
   std::string input, output;
-  std::string field;                // empty: see steering_field.hpp
-  std::optional<int32_t> preset;    // TETLOD_PRESET_*
-  std::map<int32_t, double> reals;  // TETLOD_OPT_* that were given
-  std::map<int32_t, int64_t> integers;
-  std::string report;  // empty: none
+  std::string field;                  // empty: the filter's choice
+  std::optional<int32_t> preset;      // TETLOD_PRESET_*
+  std::map<int32_t, double> numbers;  // TETLOD_OPT_* that were given
+  std::string report;                 // empty: none
   bool quiet = false;
   std::string command;  // as it was typed
 };

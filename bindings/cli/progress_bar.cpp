@@ -1,13 +1,13 @@
 #include "progress_bar.hpp"
 
 #include <unistd.h>
+#include <vtkAlgorithm.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <string>
 
 #include "interrupt.hpp"
-#include "tetlod.h"
 
 namespace cli {
 namespace {
@@ -39,9 +39,11 @@ void ProgressBar::clear() {
   drawn_ = false;
 }
 
-int32_t ProgressBar::on_progress(void *bar, int32_t stage, double fraction) {
-  static_cast<ProgressBar *>(bar)->show(tetlod_stage_name(stage), fraction);
-  return interrupted() ? 1 : 0;
+void ProgressBar::on_progress(vtkObject *object, unsigned long, void *) {
+  auto *filter = vtkAlgorithm::SafeDownCast(object);
+  const char *stage = filter->GetProgressText();
+  show(stage != nullptr ? stage : "start", filter->GetProgress());
+  if (interrupted()) filter->SetAbortExecute(1);
 }
 
 }  // namespace cli

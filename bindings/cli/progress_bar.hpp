@@ -1,7 +1,7 @@
 // A line on stderr that says how far the run is; nothing where stderr is not a terminal.
 #pragma once
 
-#include <cstdint>
+class vtkObject;
 
 namespace cli {
 
@@ -14,8 +14,8 @@ class ProgressBar {
 
   void show(const char *what, double fraction);
   void clear();
-  // A tetlod_progress_fn; `bar` is a ProgressBar. Cancels after an interruption.
-  static int32_t on_progress(void *bar, int32_t stage, double fraction);
+  // Observes a filter's ProgressEvent. Aborts it after an interruption.
+  void on_progress(vtkObject *filter, unsigned long, void *);
 
  private:
   bool on_;

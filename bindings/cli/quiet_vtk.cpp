@@ -3,8 +3,6 @@
 #include <vtkLogger.h>
 #include <vtkObjectFactory.h>
 
-#include "failure.hpp"
-
 namespace cli {
 namespace {
 
@@ -24,12 +22,13 @@ void VtkMessages::install() {
   vtkOutputWindow::SetInstance(this);
 }
 
-void VtkMessages::check(const std::string &path, std::vector<std::string> &notes) {
+void VtkMessages::check(const std::string &path, std::vector<std::string> &notes, ExitStatus status) {
+  const std::string where = path.empty() ? "" : path + ": ";
   std::vector<std::string> errors;
   errors.swap(errors_);
-  for (const std::string &warning : warnings_) notes.push_back(path + ": " + warning);
+  for (const std::string &warning : warnings_) notes.push_back(where + warning);
   warnings_.clear();
-  if (!errors.empty()) throw Failure(path + ": " + errors.front());
+  if (!errors.empty()) throw Failure(where + errors.front(), status);
 }
 
 void VtkMessages::DisplayErrorText(const char *text) { errors_.push_back(what_was_wrong(text)); }

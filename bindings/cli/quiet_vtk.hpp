@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "failure.hpp"
+
 namespace cli {
 
 class VtkMessages : public vtkOutputWindow {
@@ -16,8 +18,8 @@ class VtkMessages : public vtkOutputWindow {
 
   // Makes this the place that VTK prints to.
   void install();
-  // Throws Failure with the first error that came; warnings become notes. Both are forgotten.
-  void check(const std::string &path, std::vector<std::string> &notes);
+  // Throws Failure with the first error that came; warnings become notes. Both are forgotten. A path goes before them.
+  void check(const std::string &path, std::vector<std::string> &notes, ExitStatus status = kFailed);
 
   void DisplayErrorText(const char *text) override;
   void DisplayWarningText(const char *text) override;

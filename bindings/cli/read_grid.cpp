@@ -1,6 +1,5 @@
 #include "read_grid.hpp"
 
-#include <vtkCellData.h>
 #include <vtkUnstructuredGridReader.h>
 #include <vtkXMLPUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
@@ -44,10 +43,6 @@ Grid read_by_ending(const std::string &path) {
   return read_with(*vtkNew<vtkXMLUnstructuredGridReader>(), path);
 }
 
-void drop_ghosts(vtkUnstructuredGrid &grid) {
-  if (grid.GetCellData()->HasArray(vtkDataSetAttributes::GhostArrayName())) grid.RemoveGhostCells();
-}
-
 }  // namespace
 
 vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string &path, VtkMessages &messages,
@@ -56,7 +51,6 @@ vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string &path, VtkMessa
   Grid grid = read_by_ending(path);
   messages.check(path, notes);
   if (grid == nullptr || grid->GetNumberOfCells() == 0) throw Failure(path + ": holds no cells");
-  drop_ghosts(*grid);
   return grid;
 }
 

@@ -11,7 +11,7 @@
 
 namespace cli {
 
-// .vtu, .vtk or .pvtu; ghost cells of a partitioned file are left out. Throws Failure.
+// .vtu, .vtk or .pvtu. Throws Failure.
 vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string &path, VtkMessages &messages,
                                                std::vector<std::string> &notes);
 

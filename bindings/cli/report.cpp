@@ -100,7 +100,8 @@ Json options_json(const tetlod_context *context) {
 }  // namespace
 
 void write_report(const std::string &path, const Arguments &arguments, const std::string &field,
-                  const tetlod_context *context, const tetlod_error_report &error, const ToolSeconds &seconds) {
+                  const vtkTetlodSimplify &filter, const ToolSeconds &seconds) {
+  const tetlod_context *context = filter.GetContext();
   const tetlod_run_report run = run_report(context);
   Json json = {{"tetlod", tetlod_build_info()},
                {"command", arguments.command},
@@ -113,7 +114,7 @@ void write_report(const std::string &path, const Arguments &arguments, const std
   put_counts(json, run);
   put_boundary(json, run);
   put_resources(json, run);
-  json["error"] = error_json(error);
+  json["error"] = error_json(filter.GetErrorReport());
   json["seconds"] = seconds_json(run, seconds);
   std::ofstream file(path);
   // File names are bytes; what is not UTF-8 in them is replaced instead of thrown about.

@@ -14,6 +14,6 @@ struct ToolSeconds {
 };
 
 void write_report(const std::string &path, const Arguments &arguments, const std::string &field,
-                  const tetlod_context *context, const tetlod_error_report &error, const ToolSeconds &seconds);
+                  const vtkTetlodSimplify &filter, const ToolSeconds &seconds);
 
 }  // namespace cli

@@ -1,5 +1,5 @@
 # Installs into a folder, builds app/ against it in both ways and runs it; moves the folder and does it all again.
-# cmake -DBUILD= -DSOURCE= -DVERSION= -DAPP= -DWORK= -DCC= -DCXX= -DFC= -DGENERATOR= -DPKG_CONFIG= -DLIBDIR= -DBINDIR= -P consumer.cmake
+# cmake -DBUILD= -DSOURCE= -DVERSION= -DAPP= -DWORK= -DCC= -DCXX= -DFC= -DGENERATOR= -DPKG_CONFIG= -DLIBDIR= -DBINDIR= -DPYTHON= -P consumer.cmake
 cmake_minimum_required(VERSION 3.20)
 
 function(run)
@@ -103,6 +103,18 @@ function(by_the_tool prefix)
   endif()
 endfunction()
 
+# The wrapped filter finds its library from where it is.
+function(by_python prefix)
+  file(GLOB_RECURSE package ${prefix}/vtktetlod/__init__.py)
+  if(package AND PYTHON)
+    get_filename_component(folder ${package}/../.. ABSOLUTE)
+    set(ENV{PYTHONPATH} ${folder})
+    run(${CMAKE_COMMAND} -E env --unset=LD_LIBRARY_PATH ${PYTHON} -c
+      "from vtktetlod import vtkTetlodSimplify; print(vtkTetlodSimplify().GetRho())")
+    message(STATUS "${said}")
+  endif()
+endfunction()
+
 # What was installed names neither the folder it was built in nor the one it was installed to first.
 function(check_texts prefix)
   file(GLOB_RECURSE texts ${prefix}/*.cmake ${prefix}/*.pc ${prefix}/*.h ${prefix}/*.hpp ${prefix}/*.f90)
@@ -129,7 +141,7 @@ function(check_bytes prefix)
 endfunction()
 
 function(check_rpaths prefix)
-  foreach(file ${prefix}/${LIBDIR}/libtetlod.so ${prefix}/${LIBDIR}/libtetlod_fortran.so ${prefix}/${BINDIR}/tetlod)
+  foreach(file ${prefix}/${LIBDIR}/libtetlod.so ${prefix}/${LIBDIR}/libvtkTetlod.so ${prefix}/${LIBDIR}/libtetlod_fortran.so ${prefix}/${BINDIR}/tetlod)
     if(EXISTS ${file})
       run(readelf -d ${file})
       string(FIND "${said}" "${BUILD}" at)
@@ -149,10 +161,12 @@ check_rpaths(${WORK}/first)
 by_find_package(${WORK}/first first-cmake)
 by_pkg_config(${WORK}/first first-pkg-config)
 by_the_tool(${WORK}/first)
+by_python(${WORK}/first)
 build_readme(${WORK}/first first-readme)
 
 file(RENAME ${WORK}/first ${WORK}/second)
 by_find_package(${WORK}/second second-cmake)
 by_pkg_config(${WORK}/second second-pkg-config)
 by_the_tool(${WORK}/second)
+by_python(${WORK}/second)
 build_readme(${WORK}/second second-readme)

@@ -6,10 +6,10 @@
 
 #include <string>
 
-namespace cli {
+namespace tetlod_vtk {
 
 // The point array of that name; without a name the active scalars, else the first array of one component. Throws
-// Failure, which names the arrays that there are.
+// std::runtime_error, which names the arrays that there are.
 vtkDataArray *steering_field(vtkUnstructuredGrid &grid, const std::string &name);
 
-}  // namespace cli
+}  // namespace tetlod_vtk

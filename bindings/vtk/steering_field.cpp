@@ -3,9 +3,9 @@
 #include <vtkCellData.h>
 #include <vtkPointData.h>
 
-#include "failure.hpp"
+#include <stdexcept>
 
-namespace cli {
+namespace tetlod_vtk {
 namespace {
 
 bool is_scalar(vtkDataArray *array) { return array != nullptr && array->GetNumberOfComponents() == 1; }
@@ -38,7 +38,7 @@ vtkDataArray *first_scalar(vtkPointData &data) {
   for (int i = 0; i < data.GetNumberOfArrays(); i++) {
     if (is_scalar(data.GetArray(i))) return data.GetArray(i);
   }
-  throw Failure("no field of one number a point; " + what_there_is(data));
+  throw std::runtime_error("no field of one number a point; " + what_there_is(data));
 }
 
 }  // namespace
@@ -46,8 +46,8 @@ vtkDataArray *first_scalar(vtkPointData &data) {
 vtkDataArray *steering_field(vtkUnstructuredGrid &grid, const std::string &name) {
   if (name.empty()) return first_scalar(*grid.GetPointData());
   vtkDataArray *array = grid.GetPointData()->GetArray(name.c_str());
-  if (!is_scalar(array)) throw Failure(why_not(grid, name) + "; " + what_there_is(*grid.GetPointData()));
+  if (!is_scalar(array)) throw std::runtime_error(why_not(grid, name) + "; " + what_there_is(*grid.GetPointData()));
   return array;
 }
 
-}  // namespace cli
+}  // namespace tetlod_vtk

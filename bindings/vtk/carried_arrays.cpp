@@ -1,19 +1,14 @@
 #include "carried_arrays.hpp"
 
 #include <vtkCellData.h>
-#include <vtkDoubleArray.h>
-#include <vtkNew.h>
 #include <vtkPointData.h>
 
-#include "arrays.hpp"
-#include "simplify.hpp"
-
-namespace cli {
+namespace tetlod_vtk {
 namespace {
 
 constexpr int kMostComponents = 64;
 
-// Why an array of the file is not carried; empty: it is.
+// Why an array of the grid is not carried; empty: it is.
 std::string why_left_out(vtkAbstractArray &any) {
   auto *array = vtkDataArray::SafeDownCast(&any);
   if (array == nullptr) return "is not one of numbers";
@@ -21,6 +16,17 @@ std::string why_left_out(vtkAbstractArray &any) {
   const int components = array->GetNumberOfComponents();
   if (components < 1 || components > kMostComponents) return "has " + std::to_string(components) + " components";
   return "";
+}
+
+// Marks and numbers of this grid's points and cells, which the result does not have.
+bool is_bookkeeping(vtkDataSetAttributes &data, vtkAbstractArray *array) {
+  return array == data.GetGlobalIds() || array == data.GetAbstractArray(vtkDataSetAttributes::GhostArrayName());
+}
+
+// The steering field is the result's active point scalars.
+int attribute_of(vtkDataSetAttributes &data, int index, int32_t association) {
+  const int attribute = data.IsArrayAnAttribute(index);
+  return association == TETLOD_POINT_FIELD && attribute == vtkDataSetAttributes::SCALARS ? -1 : attribute;
 }
 
 // A tuple a tet of an array with a tuple a cell.
@@ -34,13 +40,18 @@ vtkSmartPointer<vtkDataArray> a_tuple_a_tet(vtkDataArray *array, const Tets &tet
   return spread;
 }
 
-bool is_real(int type) { return type == VTK_FLOAT || type == VTK_DOUBLE; }
-
-CarriedArray carried(vtkDataArray *array, int32_t association, const Tets &tets) {
+CarriedArray carried(vtkDataArray *array, int32_t association, int attribute, const Tets &tets) {
   const bool of_cells = association == TETLOD_CELL_FIELD;
   const int type = array->GetDataType();
-  return {array->GetName(), association, of_cells || is_real(type) ? type : VTK_DOUBLE,
-          as_reals(of_cells ? a_tuple_a_tet(array, tets).Get() : array)};
+  return {array->GetName(), association, of_cells || is_real(type) ? type : VTK_DOUBLE, attribute,
+          lend_reals(of_cells ? a_tuple_a_tet(array, tets).Get() : array)};
+}
+
+vtkSmartPointer<vtkDataArray> array_for(const CarriedArray &array, int type) {
+  auto values = vtk::TakeSmartPointer(vtkDataArray::CreateDataArray(type));
+  values->SetName(array.name.c_str());
+  values->SetNumberOfComponents(array.reals.array.components);
+  return values;
 }
 
 }  // namespace
@@ -52,10 +63,10 @@ std::vector<CarriedArray> carried_arrays(vtkUnstructuredGrid &grid, vtkDataArray
     for (int i = 0; i < data.GetNumberOfArrays(); i++) {
       vtkAbstractArray *array = data.GetAbstractArray(i);
       const std::string name = array->GetName() != nullptr ? array->GetName() : "";
-      if (data.GetArray(i) == steering || name == vtkDataSetAttributes::GhostArrayName()) continue;
+      if (array == steering || is_bookkeeping(data, array)) continue;
       const std::string reason = why_left_out(*array);
       if (reason.empty())
-        all.push_back(carried(data.GetArray(i), association, tets));
+        all.push_back(carried(data.GetArray(i), association, attribute_of(data, i, association), tets));
       else
         notes.push_back("array '" + name + "' is left out: it " + reason);
     }
@@ -65,23 +76,17 @@ std::vector<CarriedArray> carried_arrays(vtkUnstructuredGrid &grid, vtkDataArray
   return all;
 }
 
-vtkSmartPointer<vtkDataArray> fetch_carried(const tetlod_context *context, const CarriedArray &array, int64_t tuples) {
-  const int components = array.reals->GetNumberOfComponents();
-  const auto made = [&](int type) {
-    auto values = vtk::TakeSmartPointer(vtkDataArray::CreateDataArray(type));
-    values->SetName(array.name.c_str());
-    values->SetNumberOfComponents(components);
-    return values;
-  };
-  auto fetched = made(is_real(array.type) ? array.type : VTK_DOUBLE);
+vtkSmartPointer<vtkDataArray> fetch_carried(const tetlod::Context &context, const CarriedArray &array, int64_t tuples) {
+  auto fetched = array_for(array, is_real(array.type) ? array.type : VTK_DOUBLE);
   fetched->SetNumberOfTuples(tuples);
-  tetlod_array room = borrowed(fetched, components);
-  check(tetlod_fetch_field(context, array.key().c_str(), &room), context);
+  tetlod_array room = room_in(fetched, fetched->GetNumberOfComponents());
+  if (const auto status = tetlod_fetch_field(context.get(), array.key().c_str(), &room); status != TETLOD_OK)
+    throw tetlod::Error(status, context.last_message());
   if (is_real(array.type)) return fetched;
-  auto integers = made(array.type);
+  auto integers = array_for(array, array.type);
   integers->DeepCopy(fetched);
   integers->SetName(array.name.c_str());
   return integers;
 }
 
-}  // namespace cli
+}  // namespace tetlod_vtk

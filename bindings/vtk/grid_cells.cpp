@@ -15,10 +15,9 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <stdexcept>
 
-#include "failure.hpp"
-
-namespace cli {
+namespace tetlod_vtk {
 namespace {
 
 using Counts = std::map<int, vtkIdType>;  // of cells, by type
@@ -79,12 +78,12 @@ Counts solid_types(Counts counts, std::vector<std::string> &notes) {
   for (auto at = counts.begin(); at != counts.end();) {
     const auto [type, count] = *at;
     const bool solid = is_solid(type);
-    if (!solid && dimension_of(type) == 3) throw Failure(named(type, count) + " cannot be split into tets");
+    if (!solid && dimension_of(type) == 3) throw std::runtime_error(named(type, count) + " cannot be split into tets");
     if (!solid) flat += count;
     at = solid ? std::next(at) : counts.erase(at);
   }
   if (flat > 0) notes.push_back(std::to_string(flat) + " cells without a volume are left out");
-  if (counts.empty()) throw Failure("there are no cells with a volume");
+  if (counts.empty()) throw std::runtime_error("there are no cells with a volume");
   return counts;
 }
 
@@ -97,11 +96,11 @@ void note_curved(const Counts &counts, std::vector<std::string> &notes) {
 // VTK's filters trust the numbers in a file; the library does not, but sees them only afterwards.
 void check_cell(vtkIdType cell, vtkIdType size, const vtkIdType *ids, vtkIdType least_size, vtkIdType points) {
   if (size < least_size)
-    throw Failure("cell " + std::to_string(cell) + " has " + std::to_string(size) + " points only");
+    throw std::runtime_error("cell " + std::to_string(cell) + " has " + std::to_string(size) + " points only");
   const auto bad = std::find_if(ids, ids + size, [points](vtkIdType id) { return id < 0 || id >= points; });
   if (bad == ids + size) return;
-  throw Failure("cell " + std::to_string(cell) + " names point " + std::to_string(*bad) +
-                ", which the mesh does not have");
+  throw std::runtime_error("cell " + std::to_string(cell) + " names point " + std::to_string(*bad) +
+                           ", which the mesh does not have");
 }
 
 // Calls use(type, ids, cell) for each cell with a volume.
@@ -198,4 +197,4 @@ Tets tets_of(vtkUnstructuredGrid &grid, std::vector<std::string> &notes) {
   return split(corner_grid(grid));
 }
 
-}  // namespace cli
+}  // namespace tetlod_vtk

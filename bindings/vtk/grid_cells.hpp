@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace cli {
+namespace tetlod_vtk {
 
 struct Tets {
   vtkSmartPointer<vtkDataArray> corners;  // four point numbers a tet
@@ -20,7 +20,7 @@ struct Tets {
 //   other cells       by their corners: hexahedra, voxels, wedges, pyramids are split so that neighbours fit; of
 //                     quadratic and higher cells the points between the corners are left out (a note says so);
 //   surfaces, lines   are left out (a note says so).
-// Throws Failure for polyhedra and other cells, and names them.
+// Throws std::runtime_error for polyhedra and other cells, and names them.
 Tets tets_of(vtkUnstructuredGrid &grid, std::vector<std::string> &notes);
 
-}  // namespace cli
+}  // namespace tetlod_vtk

@@ -1,0 +1,37 @@
+// The arrays of a grid that ride along with the steering field.
+#pragma once
+
+#include <vtkDataArray.h>
+#include <vtkSmartPointer.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <string>
+#include <vector>
+
+#include "grid_cells.hpp"
+#include "lent_array.hpp"
+#include "tetlod.hpp"
+
+namespace tetlod_vtk {
+
+struct CarriedArray {
+  std::string name;
+  int32_t association;  // TETLOD_POINT_FIELD or TETLOD_CELL_FIELD
+  int type;             // VTK's, of the result's array
+  int attribute;        // vtkDataSetAttributes::AttributeTypes that it is active as; -1: none
+  LentArray reals;      // what the library gets: a tuple a point or a tet
+
+  // A grid may have a point and a cell array of one name; the library's fields have one each.
+  std::string key() const { return (association == TETLOD_CELL_FIELD ? "cell " : "point ") + name; }
+};
+
+// All named arrays of numbers but the steering one. Those of cells keep their type; those of points become means, so
+// integers become doubles. Ghost marks and global numbers have no meaning any more. A note says which are left out:
+// without a name, or of more than 64 components.
+std::vector<CarriedArray> carried_arrays(vtkUnstructuredGrid &grid, vtkDataArray *steering, const Tets &tets,
+                                         std::vector<std::string> &notes);
+
+// The array on the context's result.
+vtkSmartPointer<vtkDataArray> fetch_carried(const tetlod::Context &context, const CarriedArray &array, int64_t tuples);
+
+}  // namespace tetlod_vtk

@@ -1,0 +1,93 @@
+#include "original.hpp"
+
+#include <vtkCellData.h>
+#include <vtkInformation.h>
+#include <vtkPointData.h>
+
+#include <stdexcept>
+
+#include "carried_arrays.hpp"
+#include "steering_field.hpp"
+
+namespace tetlod_vtk {
+namespace {
+
+// A shallow copy where ghost cells have to be left out.
+vtkSmartPointer<vtkUnstructuredGrid> without_ghosts(vtkUnstructuredGrid *input) {
+  if (!input->GetCellData()->HasArray(vtkDataSetAttributes::GhostArrayName())) return input;
+  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  grid->ShallowCopy(input);
+  grid->RemoveGhostCells();
+  return grid;
+}
+
+// The name that SetInputArrayToProcess was given; empty: none.
+std::string wanted_name(vtkInformation *wanted) {
+  if (wanted == nullptr || !wanted->Has(vtkDataObject::FIELD_NAME())) return "";
+  return wanted->Get(vtkDataObject::FIELD_NAME());
+}
+
+vtkDataArray *steering_array(vtkUnstructuredGrid &grid, vtkInformation *wanted) {
+  const std::string name = wanted_name(wanted);
+  if (!name.empty() && wanted->Get(vtkDataObject::FIELD_ASSOCIATION()) == vtkDataObject::FIELD_ASSOCIATION_CELLS)
+    throw std::runtime_error("field '" + name + "' is asked for as cell data; a point array steers");
+  return steering_field(grid, name);
+}
+
+vtkUnsignedCharArray *flags_array(vtkUnstructuredGrid &grid, vtkInformation *wanted) {
+  const std::string name = wanted_name(wanted);
+  if (name.empty()) return nullptr;
+  auto *flags = vtkUnsignedCharArray::SafeDownCast(grid.GetPointData()->GetAbstractArray(name.c_str()));
+  if (flags == nullptr || flags->GetNumberOfComponents() != 1)
+    throw std::runtime_error("point flags '" + name + "' are not a point array of one unsigned char");
+  return flags;
+}
+
+// Separate coordinates are submitted as such.
+LentArray lend_points(vtkDataArray *points) {
+  if (lend_component(points, 0).array.data != nullptr) return {};
+  return lend_reals(points);
+}
+
+void require(tetlod_status status, const tetlod::Context &context) {
+  if (status != TETLOD_OK) throw tetlod::Error(status, context.last_message());
+}
+
+void submit_points(tetlod::Context &context, const Original &original) {
+  if (original.points.keeper != nullptr)
+    return require(tetlod_submit_points(context.get(), &original.points.array), context);
+  vtkDataArray *points = original.grid->GetPoints()->GetData();
+  const LentArray x = lend_component(points, 0), y = lend_component(points, 1), z = lend_component(points, 2);
+  require(tetlod_submit_points_xyz(context.get(), &x.array, &y.array, &z.array), context);
+}
+
+}  // namespace
+
+Original original_of(vtkUnstructuredGrid *input, vtkInformation *steering, vtkInformation *flags,
+                     std::vector<std::string> &notes) {
+  Original original;
+  original.grid = without_ghosts(input);
+  vtkDataArray *field = steering_array(*original.grid, steering);
+  original.flags = flags_array(*original.grid, flags);
+  original.values = lend_reals(field);
+  original.points = lend_points(original.grid->GetPoints()->GetData());
+  original.tets = tets_of(*original.grid, notes);
+  original.arrays.steering = field->GetName() != nullptr ? field->GetName() : "scalars";
+  original.arrays.steering_type = is_real(field->GetDataType()) ? field->GetDataType() : VTK_DOUBLE;
+  original.arrays.others = carried_arrays(*original.grid, field, original.tets, notes);
+  return original;
+}
+
+void submit(tetlod::Context &context, const Original &original) {
+  const tetlod_array corners = room_in(original.tets.corners, 4);
+  submit_points(context, original);
+  require(tetlod_submit_tets(context.get(), &corners, 0), context);
+  require(tetlod_submit_scalars(context.get(), original.arrays.steering.c_str(), &original.values.array), context);
+  for (const CarriedArray &other : original.arrays.others)
+    require(tetlod_submit_field(context.get(), other.key().c_str(), other.association, &other.reals.array), context);
+  if (original.flags == nullptr) return;
+  const tetlod_array flags = room_in(original.flags, 1);
+  require(tetlod_submit_point_flags(context.get(), &flags), context);
+}
+
+}  // namespace tetlod_vtk

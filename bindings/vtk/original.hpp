@@ -1,0 +1,37 @@
+// What the library borrows of an input grid during an execution.
+#pragma once
+
+#include <vtkSmartPointer.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <string>
+#include <vector>
+
+#include "grid_cells.hpp"
+#include "lent_array.hpp"
+#include "result_grid.hpp"
+#include "tetlod.hpp"
+
+class vtkInformation;
+
+namespace tetlod_vtk {
+
+struct Original {
+  vtkSmartPointer<vtkUnstructuredGrid> grid;  // without ghost cells
+  LentArray points;                           // without a keeper: the grid's are separate x, y and z
+  LentArray values;
+  Tets tets;
+  vtkSmartPointer<vtkUnsignedCharArray> flags;  // may be null
+  OriginalArrays arrays;
+};
+
+// steering and flags are what SetInputArrayToProcess was told of input arrays 0 and 1, null where it was not. Throws
+// std::runtime_error for an array that is not there and for cells that cannot be split; notes tell what is left out.
+Original original_of(vtkUnstructuredGrid *input, vtkInformation *steering, vtkInformation *flags,
+                     std::vector<std::string> &notes);
+
+// Throws tetlod::Error. The original must live until the context is cleared.
+void submit(tetlod::Context &context, const Original &original);
+
+}  // namespace tetlod_vtk

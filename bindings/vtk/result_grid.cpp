@@ -1,0 +1,63 @@
+#include "result_grid.hpp"
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkCellType.h>
+#include <vtkDoubleArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkTypeInt32Array.h>
+
+#include <stdexcept>
+
+#include "lent_array.hpp"
+
+namespace tetlod_vtk {
+namespace {
+
+void fill_points(const tetlod::Context &context, vtkIdType count, vtkUnstructuredGrid &grid) {
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(count);
+  context.fetch_points({static_cast<double *>(points->GetVoidPointer(0)), count, 3});
+  grid.SetPoints(points);
+}
+
+void fill_tets(const tetlod::Context &context, vtkIdType count, vtkUnstructuredGrid &grid) {
+  vtkNew<vtkTypeInt32Array> corners;
+  corners->SetNumberOfValues(4 * count);
+  context.fetch_tets(0, {corners->GetPointer(0), count, 4});
+  vtkNew<vtkCellArray> tets;
+  if (!tets->SetData(4, corners)) throw std::runtime_error("VTK did not take the result's tets");
+  grid.SetCells(VTK_TETRA, tets);
+}
+
+void fill_scalars(const tetlod::Context &context, const OriginalArrays &arrays, vtkIdType count,
+                  vtkUnstructuredGrid &grid) {
+  auto values = vtk::TakeSmartPointer(vtkDataArray::CreateDataArray(arrays.steering_type));
+  values->SetName(arrays.steering.c_str());
+  values->SetNumberOfTuples(count);
+  tetlod_array room = room_in(values, 1);
+  if (const tetlod_status status = tetlod_fetch_scalars(context.get(), &room); status != TETLOD_OK)
+    throw tetlod::Error(status, context.last_message());
+  grid.GetPointData()->SetScalars(values);
+}
+
+}  // namespace
+
+void fill_result(const tetlod::Context &context, const OriginalArrays &arrays, vtkUnstructuredGrid &grid) {
+  const tetlod::Counts counts = context.fetch_counts();
+  fill_points(context, counts.points, grid);
+  fill_tets(context, counts.tets, grid);
+  fill_scalars(context, arrays, counts.points, grid);
+  for (const CarriedArray &other : arrays.others) {
+    const bool of_cells = other.association == TETLOD_CELL_FIELD;
+    vtkDataSetAttributes *data =
+        of_cells ? static_cast<vtkDataSetAttributes *>(grid.GetCellData()) : grid.GetPointData();
+    const int at = data->AddArray(fetch_carried(context, other, of_cells ? counts.tets : counts.points));
+    if (other.attribute >= 0) data->SetActiveAttribute(at, other.attribute);
+  }
+}
+
+}  // namespace tetlod_vtk

@@ -1,0 +1,25 @@
+// The library's result as a grid.
+#pragma once
+
+#include <vtkUnstructuredGrid.h>
+
+#include <string>
+#include <vector>
+
+#include "carried_arrays.hpp"
+#include "tetlod.hpp"
+
+namespace tetlod_vtk {
+
+// The arrays of the original that the result has, too.
+struct OriginalArrays {
+  std::string steering;  // its name
+  int steering_type;     // VTK_FLOAT or VTK_DOUBLE
+  std::vector<CarriedArray> others;
+};
+
+// Fills the grid from the context's last result: points in double precision, in which their tets are known to be
+// positive; the steering field keeps its name, is the active scalars, and keeps its type if it is a float.
+void fill_result(const tetlod::Context &context, const OriginalArrays &arrays, vtkUnstructuredGrid &grid);
+
+}  // namespace tetlod_vtk

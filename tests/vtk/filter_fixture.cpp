@@ -1,0 +1,43 @@
+#include "filter_fixture.hpp"
+
+#include <vtkExecutive.h>
+#include <vtkUnstructuredGridReader.h>
+#include <vtkXMLUnstructuredGridWriter.h>
+
+namespace vtk_test {
+
+Grid cube_grid(const cli_test::Cube &cube) {
+  const cli_test::Folder folder;
+  cli_test::write_cube(folder / "cube.vtk", cube);
+  vtkNew<vtkUnstructuredGridReader> reader;
+  reader->SetFileName((folder / "cube.vtk").c_str());
+  reader->ReadAllScalarsOn();
+  reader->Update();
+  return reader->GetOutput();
+}
+
+Listener::Listener(vtkTetlodSimplify &filter) {
+  filter.AddObserver(vtkCommand::ErrorEvent, this, &Listener::on_error);
+  filter.AddObserver(vtkCommand::WarningEvent, this, &Listener::on_warning);
+  filter.GetExecutive()->AddObserver(vtkCommand::ErrorEvent, this, &Listener::on_error);
+}
+
+bool Listener::heard(const std::string &part) const {
+  for (const std::string &error : errors) {
+    if (error.find(part) != std::string::npos) return true;
+  }
+  return false;
+}
+
+std::string bytes_of(vtkUnstructuredGrid *grid) {
+  const cli_test::Folder folder;
+  vtkNew<vtkXMLUnstructuredGridWriter> writer;
+  writer->SetFileName((folder / "grid.vtu").c_str());
+  writer->SetInputData(grid);
+  writer->SetDataModeToAppended();
+  writer->EncodeAppendedDataOff();
+  writer->Write();
+  return cli_test::contents_of(folder / "grid.vtu");
+}
+
+}  // namespace vtk_test

@@ -1,0 +1,295 @@
+// The filter keeps VTK's contract: it runs again when, and only when, something changed; arrays that are not there,
+// empty input, an abort from an observer and time steps are what they are for every filter.
+#include <gtest/gtest.h>
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkErrorCode.h>
+#include <vtkInformation.h>
+#include <vtkInformationVector.h>
+#include <vtkObjectFactory.h>
+#include <vtkPointData.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "filter_fixture.hpp"
+#include "tetlod.h"
+
+namespace vtk_test {
+namespace {
+
+using cli_test::Cube;
+using cli_test::Kind;
+
+class Filter : public testing::Test {
+ protected:
+  // All boundary edges are kept: the cube stays a cube.
+  Filter() : listener(*filter) {
+    filter->SetInputData(cube_grid());
+    filter->SetSigma(1);
+  }
+  vtkUnstructuredGrid *updated() {
+    filter->Update();
+    return filter->GetOutput();
+  }
+  void expect_silence() {
+    EXPECT_TRUE(listener.errors.empty()) << listener.errors.front();
+    EXPECT_TRUE(listener.warnings.empty()) << listener.warnings.front();
+  }
+  void use_field(const char *name) {
+    filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name);
+  }
+  void expect_failure(const std::string &part, int status) {
+    EXPECT_EQ(updated()->GetNumberOfPoints(), 0);
+    EXPECT_EQ(filter->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::UserError + status));
+    EXPECT_TRUE(listener.heard(part)) << "'" << part
+                                      << "' is not in: " << (listener.errors.empty() ? "" : listener.errors.front());
+  }
+
+  vtkNew<vtkTetlodSimplify> filter;
+  Listener listener;
+};
+
+TEST_F(Filter, RunsAgainWhenAPropertyChangedAndOnlyThen) {
+  const std::string first = bytes_of(updated());
+  const vtkMTimeType then = filter->GetOutput()->GetMTime();
+  filter->SetSigma(filter->GetSigma());
+  filter->SetRepairFlat(filter->GetRepairFlat());
+  EXPECT_EQ(updated()->GetMTime(), then);
+  filter->SetSigma(0.9);
+  EXPECT_NE(bytes_of(updated()), first);
+  filter->SetSigma(1);
+  EXPECT_EQ(bytes_of(updated()), first);
+  expect_silence();
+}
+
+TEST_F(Filter, APropertyOutOfBoundsIsAnErrorAndKeepsItsValue) {
+  filter->SetRho(0.25);
+  const vtkMTimeType then = filter->GetMTime();
+  filter->SetRho(1.5);
+  filter->SetOption("threads", 0.5);
+  filter->SetOption("no-such-option", 1);
+  filter->SetPreset(17);
+  EXPECT_EQ(filter->GetRho(), 0.25);
+  EXPECT_EQ(filter->GetMTime(), then);
+  for (const char *part : {"1.5", "threads", "no-such-option", "17"}) EXPECT_TRUE(listener.heard(part)) << part;
+  EXPECT_EQ(listener.errors.size(), 4U);
+}
+
+TEST_F(Filter, APresetSetsTheOthers) {
+  filter->SetPresetToFast();
+  EXPECT_EQ(filter->GetTargetRatio(), 0.1);
+  EXPECT_EQ(filter->GetEffort(), TETLOD_EFFORT_FAST);
+  filter->SetPresetToPaper();
+  EXPECT_EQ(filter->GetTargetRatio(), 0.0);
+  expect_silence();
+}
+
+TEST_F(Filter, AnArrayThatIsNotThere) {
+  use_field("cold");
+  expect_failure("heat", TETLOD_ERR_ARGUMENT);
+  use_field("flow");
+  expect_failure("not one number", TETLOD_ERR_ARGUMENT);
+  filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "part");
+  expect_failure("cell data", TETLOD_ERR_ARGUMENT);
+  use_field("heat");
+  EXPECT_GT(updated()->GetNumberOfCells(), 0);
+  EXPECT_EQ(filter->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::NoError));
+}
+
+TEST_F(Filter, AGridWithoutArrays) {
+  const Grid bare = cube_grid();
+  bare->GetPointData()->Initialize();
+  filter->SetInputData(bare);
+  expect_failure("there is no point data", TETLOD_ERR_ARGUMENT);
+}
+
+TEST_F(Filter, TheNamedArraySteersAndTheOthersRideAlong) {
+  use_field("other");
+  vtkPointData *points = updated()->GetPointData();
+  EXPECT_STREQ(points->GetScalars()->GetName(), "other");
+  EXPECT_EQ(points->GetNumberOfArrays(), 3);
+  EXPECT_STREQ(points->GetVectors()->GetName(), "flow") << "vectors stay the active ones";
+  const vtkDataArray *part = filter->GetOutput()->GetCellData()->GetArray("part");
+  ASSERT_NE(part, nullptr);
+  expect_silence();
+}
+
+TEST_F(Filter, NoCellsAreNoError) {
+  filter->SetInputData(vtkNew<vtkUnstructuredGrid>());
+  EXPECT_EQ(updated()->GetNumberOfPoints(), 0);
+  expect_silence();
+}
+
+TEST_F(Filter, TheLibrarysMessageIsTheError) {
+  const Grid grid = cube_grid();
+  grid->GetPointData()->GetScalars()->SetTuple1(7, std::numeric_limits<double>::quiet_NaN());
+  filter->SetInputData(grid);
+  expect_failure("nan", TETLOD_ERR_MESH_NONFINITE);
+  filter->RepairNonfiniteOn();
+  EXPECT_GT(updated()->GetNumberOfCells(), 0);
+}
+
+TEST_F(Filter, CellsThatAreNotTetsAreSplit) {
+  for (const Kind kind : {Kind::hexahedron, Kind::voxel, Kind::wedge, Kind::pyramid, Kind::quadratic_tet}) {
+    Cube cube;
+    cube.kind = kind;
+    filter->SetInputData(cube_grid(cube));
+    EXPECT_GT(updated()->GetNumberOfCells(), 0);
+    EXPECT_EQ(filter->GetOutput()->GetCells()->IsHomogeneous(), 4);
+  }
+  expect_silence();
+  Cube polyhedra;
+  polyhedra.kind = Kind::polyhedron;
+  filter->SetInputData(cube_grid(polyhedra));
+  expect_failure("olyhedron", TETLOD_ERR_ARGUMENT);
+}
+
+TEST_F(Filter, GhostCellsAreLeftOut) {
+  const Grid grid = cube_grid();
+  vtkNew<vtkUnsignedCharArray> ghosts;
+  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
+  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); c++)
+    ghosts->InsertNextValue(c < grid->GetNumberOfCells() / 2 ? 0 : vtkDataSetAttributes::DUPLICATECELL);
+  grid->GetCellData()->AddArray(ghosts);
+  filter->SetInputData(grid);
+  double bounds[6];
+  updated()->GetBounds(bounds);
+  EXPECT_EQ(bounds[5], 0.5) << "the upper half is another's";
+  EXPECT_EQ(grid->GetNumberOfCells(), 6 * 6 * 6 * 6) << "the input is as it was";
+}
+
+TEST_F(Filter, FlaggedPointsSurvive) {
+  const Grid grid = cube_grid();
+  constexpr vtkIdType kept = 3 * 49 + 3 * 7 + 3;  // the cube's middle
+  vtkNew<vtkUnsignedCharArray> flags;
+  flags->SetName("flags");
+  flags->SetNumberOfValues(grid->GetNumberOfPoints());
+  flags->FillValue(0);
+  flags->SetValue(kept, TETLOD_FLAG_KEEP);
+  grid->GetPointData()->AddArray(flags);
+  filter->SetInputData(grid);
+  filter->SetRho(1);
+  filter->SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "flags");
+  double middle[3] = {0.5, 0.5, 0.5}, found[3];
+  updated()->GetPoint(filter->GetOutput()->FindPoint(middle), found);
+  for (const double x : found) EXPECT_DOUBLE_EQ(x, 0.5);
+  filter->SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "heat");
+  expect_failure("heat", TETLOD_ERR_ARGUMENT);
+}
+
+TEST_F(Filter, TheErrorIsMeasuredWhenAskedFor) {
+  updated();
+  EXPECT_EQ(filter->GetErrorRMS(), -1);
+  filter->MeasureErrorOn();
+  updated();
+  EXPECT_GE(filter->GetErrorRMS(), 0);
+  EXPECT_LT(filter->GetErrorRMS(), 1e-6) << "the field is linear";
+  EXPECT_LE(filter->GetErrorRMS(), filter->GetErrorMaximum());
+  EXPECT_EQ(filter->GetErrorOutside(), 0);
+  EXPECT_GT(filter->GetSecondsOfRun(), 0);
+}
+
+struct Watcher {
+  vtkTetlodSimplify *filter;
+  bool aborts;
+  std::vector<double> seen;
+  void on_progress(vtkObject *, unsigned long, void *) {
+    seen.push_back(filter->GetProgress());
+    if (aborts && seen.back() > 0) filter->AbortExecuteOn();
+  }
+};
+
+Cube large_cube() {
+  Cube cube;
+  cube.size = 18;  // long enough for some events
+  return cube;
+}
+
+TEST_F(Filter, ProgressGoesForwards) {
+  Watcher watcher{filter, false, {}};
+  filter->SetInputData(cube_grid(large_cube()));
+  filter->AddObserver(vtkCommand::ProgressEvent, &watcher, &Watcher::on_progress);
+  updated();
+  ASSERT_GT(watcher.seen.size(), 2U);
+  EXPECT_TRUE(std::is_sorted(watcher.seen.begin(), watcher.seen.end()));
+  EXPECT_EQ(watcher.seen.back(), 1.0);
+  watcher.seen.clear();
+  filter->SetRho(0.02);
+  updated();
+  ASSERT_FALSE(watcher.seen.empty());
+  EXPECT_EQ(watcher.seen.front(), 0.0) << "a second run begins at the beginning";
+}
+
+TEST_F(Filter, AnAbortLeavesNothingAndIsNoError) {
+  Watcher watcher{filter, true, {}};
+  filter->SetInputData(cube_grid(large_cube()));
+  filter->AddObserver(vtkCommand::ProgressEvent, &watcher, &Watcher::on_progress);
+  EXPECT_EQ(updated()->GetNumberOfPoints(), 0);
+  EXPECT_EQ(updated()->GetNumberOfPoints(), 0) << "aborted again: an aborted run is not up to date";
+  expect_silence();
+  watcher.aborts = false;
+  EXPECT_GT(updated()->GetNumberOfPoints(), 0);
+}
+
+// The cube whose heat is (1 + t) times x + 2 y + 3 z at time t.
+class CubeOverTime : public vtkUnstructuredGridAlgorithm {
+ public:
+  static CubeOverTime *New();
+  int executions = 0;
+
+ protected:
+  CubeOverTime() { this->SetNumberOfInputPorts(0); }
+  int RequestInformation(vtkInformation *, vtkInformationVector **, vtkInformationVector *outputs) override {
+    const double steps[] = {0, 1, 2}, range[] = {0, 2};
+    vtkInformation *out = outputs->GetInformationObject(0);
+    out->Set(vtkStreamingDemandDrivenPipeline::TIME_STEPS(), steps, 3);
+    out->Set(vtkStreamingDemandDrivenPipeline::TIME_RANGE(), range, 2);
+    return 1;
+  }
+  int RequestData(vtkInformation *, vtkInformationVector **, vtkInformationVector *outputs) override {
+    const double t = outputs->GetInformationObject(0)->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP());
+    vtkUnstructuredGrid *grid = vtkUnstructuredGrid::GetData(outputs);
+    grid->ShallowCopy(cube_grid());
+    vtkDataArray *heat = grid->GetPointData()->GetScalars();
+    for (vtkIdType i = 0; i < heat->GetNumberOfTuples(); i++) heat->SetTuple1(i, (1 + t) * heat->GetTuple1(i));
+    grid->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), t);
+    executions++;
+    return 1;
+  }
+};
+vtkStandardNewMacro(CubeOverTime);
+
+TEST_F(Filter, TimeStepsOneAfterAnother) {
+  const vtkNew<CubeOverTime> source;
+  filter->SetInputConnection(source->GetOutputPort());
+  for (const double t : {0.0, 1.0, 2.0, 1.0}) {
+    filter->UpdateTimeStep(t);
+    vtkUnstructuredGrid *out = filter->GetOutput();
+    EXPECT_EQ(out->GetInformation()->Get(vtkDataObject::DATA_TIME_STEP()), t);
+    EXPECT_DOUBLE_EQ(out->GetPointData()->GetScalars()->GetRange()[1], 6 * (1 + t));
+  }
+  EXPECT_EQ(source->executions, 4);
+  filter->UpdateTimeStep(1.0);
+  EXPECT_EQ(source->executions, 4) << "nothing changed";
+  expect_silence();
+}
+
+TEST_F(Filter, SameBytesAsTheCommandLine) {
+  const cli_test::Folder folder;
+  Cube cube;
+  cube.kind = Kind::hexahedron;
+  cli_test::write_cube(folder / "in.vtk", cube);
+  const auto tool = cli_test::run_tool({folder / "in.vtk", folder / "out.vtu", "--sigma", "0.4", "--rho", "0.05"});
+  ASSERT_EQ(tool.status, 0) << tool.err;
+  filter->SetInputData(cube_grid(cube));
+  filter->SetSigma(0.4);
+  filter->SetRho(0.05);
+  EXPECT_EQ(bytes_of(updated()), cli_test::contents_of(folder / "out.vtu"));
+}
+
+}  // namespace
+}  // namespace vtk_test

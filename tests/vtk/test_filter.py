@@ -1,0 +1,78 @@
+"""The filter from Python: every option is a property, and a pipeline gives the bytes of the command line.
+
+test_filter.py TOOL; exit status 77 where VTK's Python modules are missing."""
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+try:
+    from vtkmodules.vtkCommonCore import vtkCommand
+    from vtkmodules.vtkCommonDataModel import vtkDataObject
+    from vtkmodules.vtkFiltersGeneral import vtkDataSetTriangleFilter
+    from vtkmodules.vtkImagingCore import vtkRTAnalyticSource
+    from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader, vtkXMLUnstructuredGridWriter
+except ImportError as missing:
+    print(f"skipped: VTK's Python modules are not there (Debian: python3-vtk9): {missing}")
+    sys.exit(77)
+from vtktetlod import vtkTetlodSimplify
+
+TOOL = sys.argv.pop(1)
+
+
+def write(path, port):
+    writer = vtkXMLUnstructuredGridWriter()
+    writer.SetFileName(path)
+    writer.SetInputConnection(port)
+    writer.SetDataModeToAppended()
+    writer.EncodeAppendedDataOff()
+    writer.Write()
+    with open(path, "rb") as file:
+        return file.read()
+
+
+class Filter(unittest.TestCase):
+    def test_every_option_is_a_property(self):
+        simplify = vtkTetlodSimplify()
+        options = re.findall(r"^  ([a-z-]+): ", str(simplify), re.MULTILINE)
+        self.assertGreater(len(options), 20)
+        for option in options:
+            name = "".join(word.capitalize() for word in option.split("-"))
+            if option.startswith("on-"):
+                name = "Repair" + name[2:]
+            value = getattr(simplify, "Get" + name)()
+            getattr(simplify, "Set" + name)(value)
+            self.assertEqual(simplify.GetOption(option), value, option)
+
+    def test_same_bytes_as_the_command_line(self):
+        wavelet = vtkRTAnalyticSource()
+        wavelet.SetWholeExtent(-8, 8, -8, 8, -8, 8)
+        tets = vtkDataSetTriangleFilter()
+        tets.SetInputConnection(wavelet.GetOutputPort())
+        with tempfile.TemporaryDirectory() as folder:
+            original, by_tool, by_filter = (os.path.join(folder, name) for name in ("in.vtu", "a.vtu", "b.vtu"))
+            write(original, tets.GetOutputPort())
+            subprocess.run([TOOL, original, by_tool, "--rho", "0.1", "--sigma", "0.3", "--quiet"], check=True)
+            reader = vtkXMLUnstructuredGridReader()
+            reader.SetFileName(original)
+            simplify = vtkTetlodSimplify()
+            simplify.SetInputConnection(reader.GetOutputPort())
+            simplify.SetInputArrayToProcess(0, 0, 0, vtkDataObject.FIELD_ASSOCIATION_POINTS, "RTData")
+            simplify.SetRho(0.1)
+            simplify.SetSigma(0.3)
+            result = write(by_filter, simplify.GetOutputPort())
+            with open(by_tool, "rb") as file:
+                self.assertEqual(file.read(), result)
+
+    def test_an_error_is_an_event(self):
+        simplify, heard = vtkTetlodSimplify(), []
+        simplify.AddObserver(vtkCommand.ErrorEvent, lambda *_: heard.append(1))
+        simplify.SetRho(2)
+        self.assertEqual(len(heard), 1)
+        self.assertEqual(simplify.GetRho(), 0.01)
+
+
+if __name__ == "__main__":
+    unittest.main()
