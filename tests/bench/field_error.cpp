@@ -2,58 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numeric>
 #include <optional>
+
+#include "box_tree.hpp"
+#include "vectors.hpp"
 
 namespace bench {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kRounding = 1e-6;  // a barycentric weight this far below zero still counts as inside
-constexpr std::size_t kLeafTets = 8;
 
-struct Box {
-  Point low{kInfinity, kInfinity, kInfinity}, high{-kInfinity, -kInfinity, -kInfinity};
-
-  void add(const Point &p) {
-    for (std::size_t a = 0; a < 3; a++) {
-      low[a] = std::min(low[a], p[a]);
-      high[a] = std::max(high[a], p[a]);
-    }
-  }
-  bool holds(const Point &p, double slack) const {
-    for (std::size_t a = 0; a < 3; a++) {
-      if (p[a] < low[a] - slack || p[a] > high[a] + slack) return false;
-    }
-    return true;
-  }
-  std::size_t longest_axis() const {
-    std::size_t longest = 0;
-    for (std::size_t a = 1; a < 3; a++) {
-      if (high[a] - low[a] > high[longest] - low[longest]) longest = a;
-    }
-    return longest;
-  }
-};
-
-Point minus(const Point &a, const Point &b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-
-double triple(const Point &a, const Point &b, const Point &c) {
-  return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
-}
-
-Point centroid(const Mesh &mesh, const Tet &tet) {
-  Point sum{};
-  for (const std::int32_t corner : tet) {
-    for (std::size_t a = 0; a < 3; a++) sum[a] += 0.25 * mesh.points[std::size_t(corner)][a];
-  }
-  return sum;
-}
+using Weights = std::array<double, 4>;
 
 // Relative to the tet's own determinant, so that a tet that is inside out still holds its points; nothing for a flat
 // one.
-std::optional<std::array<double, 4>> barycentric(const Mesh &mesh, const Tet &tet, const Point &p) {
+std::optional<Weights> barycentric(const Mesh &mesh, const Tet &tet, const Point &p) {
   const Point &origin = mesh.points[std::size_t(tet[0])];
   const Point u = minus(mesh.points[std::size_t(tet[1])], origin);
   const Point v = minus(mesh.points[std::size_t(tet[2])], origin);
@@ -62,65 +25,33 @@ std::optional<std::array<double, 4>> barycentric(const Mesh &mesh, const Tet &te
   const double whole = triple(u, v, w);
   if (whole == 0) return std::nullopt;
   const double b = triple(x, v, w) / whole, c = triple(u, x, w) / whole, d = triple(u, v, x) / whole;
-  return std::array<double, 4>{1 - b - c - d, b, c, d};
+  return Weights{1 - b - c - d, b, c, d};
 }
 
-// Tets in the order of a balanced tree over the boxes of its halves.
+std::vector<Box> boxes_of_tets(const Mesh &mesh) {
+  std::vector<Box> boxes;
+  boxes.reserve(mesh.tets.size());
+  for (const Tet &tet : mesh.tets) boxes.push_back(box_of(mesh.points, tet));
+  return boxes;
+}
+
 class Finder {
  public:
-  explicit Finder(const Mesh &mesh) : mesh_(mesh), order_(mesh.tets.size()), centroids_(mesh.tets.size()) {
-    std::iota(order_.begin(), order_.end(), std::size_t{0});
-    for (std::size_t t = 0; t < order_.size(); t++) centroids_[t] = centroid(mesh, mesh.tets[t]);
-    if (!order_.empty()) divide(0, order_.size());
-    if (nodes_.empty()) return;
-    const Box &all = nodes_.front().box;
-    slack_ = 1e-9 * std::hypot(all.high[0] - all.low[0], all.high[1] - all.low[1], all.high[2] - all.low[2]);
-  }
+  explicit Finder(const Mesh &mesh)
+      : mesh_(mesh), tree_(boxes_of_tets(mesh)), slack_(1e-9 * box_of(mesh.points).diagonal()) {}
 
   // The value in the tet that holds p best; nothing outside.
   std::optional<double> value_at(const Point &p) const {
     Best best;
-    if (!nodes_.empty()) search(0, p, best);
+    if (!tree_.nodes().empty()) search(0, p, best);
     if (best.least < -kRounding) return std::nullopt;
     return best.value;
   }
 
  private:
-  struct Node {
-    Box box;
-    std::size_t begin, end;
-    std::size_t right;  // 0: a leaf; the left half is the next node
-  };
   struct Best {
-    double least = -kInfinity, value = 0;
+    double least = -Box::kInfinity, value = 0;
   };
-
-  Box box_of(std::size_t begin, std::size_t end) const {
-    Box box;
-    for (std::size_t i = begin; i < end; i++) {
-      for (const std::int32_t corner : mesh_.tets[order_[i]]) box.add(mesh_.points[std::size_t(corner)]);
-    }
-    return box;
-  }
-
-  std::size_t halve(std::size_t begin, std::size_t end, std::size_t axis) {
-    const std::size_t middle = begin + (end - begin) / 2;
-    const auto at = [this](std::size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
-    std::nth_element(at(begin), at(middle), at(end),
-                     [this, axis](std::size_t s, std::size_t t) { return centroids_[s][axis] < centroids_[t][axis]; });
-    return middle;
-  }
-
-  void divide(std::size_t begin, std::size_t end) {
-    const std::size_t self = nodes_.size();
-    const Box box = box_of(begin, end);
-    nodes_.push_back({box, begin, end, 0});
-    if (end - begin <= kLeafTets) return;
-    const std::size_t middle = halve(begin, end, box.longest_axis());
-    divide(begin, middle);
-    nodes_[self].right = nodes_.size();
-    divide(middle, end);
-  }
 
   void try_tet(const Tet &tet, const Point &p, Best &best) const {
     const auto weights = barycentric(mesh_, tet, p);
@@ -132,21 +63,19 @@ class Finder {
   }
 
   void search(std::size_t at, const Point &p, Best &best) const {
-    const Node &node = nodes_[at];
+    const BoxTree::Node &node = tree_.nodes()[at];
     if (best.least >= 0 || !node.box.holds(p, slack_)) return;
     if (node.right != 0) {
       search(at + 1, p, best);
       search(node.right, p, best);
       return;
     }
-    for (std::size_t i = node.begin; i < node.end; i++) try_tet(mesh_.tets[order_[i]], p, best);
+    for (std::size_t i = node.begin; i < node.end; i++) try_tet(mesh_.tets[tree_.order()[i]], p, best);
   }
 
   const Mesh &mesh_;
-  std::vector<std::size_t> order_;
-  std::vector<Point> centroids_;
-  std::vector<Node> nodes_;
-  double slack_ = 0;
+  BoxTree tree_;
+  double slack_;
 };
 
 struct Sum {
@@ -167,10 +96,22 @@ struct Sum {
   double share_outside() const { return outside > 0 ? double(outside) / double(taken + outside) : 0; }
 };
 
-double mean_value(const Mesh &mesh, const Tet &tet) {
+// The n-th number of a sequence, in (0, 1]: the mixing function of Steele, Lea and Flood's splittable generator.
+double random_unit(std::uint64_t n) {
+  std::uint64_t z = (n + 1) * 0x9e3779b97f4a7c15u;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+  z ^= z >> 31;
+  return double((z >> 11) + 1) / 9007199254740992.0;
+}
+
+// Of a point that is spread evenly in a tet: exponential variates over their sum.
+Weights random_weights(std::size_t tet) {
+  Weights weights{};
   double sum = 0;
-  for (const std::int32_t corner : tet) sum += 0.25 * mesh.values[std::size_t(corner)];
-  return sum;
+  for (std::size_t k = 0; k < 4; k++) sum += weights[k] = -std::log(random_unit(4 * tet + k));
+  for (double &weight : weights) weight = sum > 0 ? weight / sum : 0.25;
+  return weights;
 }
 
 }  // namespace
@@ -182,8 +123,16 @@ FieldError measure_field_error(const Mesh &original, const Mesh &result) {
   for (std::size_t i = 0; i < original.points.size(); i++) {
     vertices.add(original.values[i], finder.value_at(original.points[i]));
   }
-  for (const Tet &tet : original.tets) {
-    inner.add(mean_value(original, tet), finder.value_at(centroid(original, tet)));
+  for (std::size_t t = 0; t < original.tets.size(); t++) {
+    const Weights weights = random_weights(t);
+    Point p{};
+    double value = 0;
+    for (std::size_t k = 0; k < 4; k++) {
+      const auto corner = std::size_t(original.tets[t][k]);
+      value += weights[k] * original.values[corner];
+      for (std::size_t a = 0; a < 3; a++) p[a] += weights[k] * original.points[corner][a];
+    }
+    inner.add(value, finder.value_at(p));
   }
   return {vertices.rms() / range, vertices.most / range, vertices.share_outside(),
           inner.rms() / range,    inner.most / range,    inner.share_outside()};

@@ -1,4 +1,4 @@
-// The paper's field error [4], by code that neither of the two that are compared has a part in.
+// The paper's field error [4], by code that none of those that are compared has a part in.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,7 @@ namespace bench {
 // Errors as fractions of the range of the original's values; points outside the result are counted and left out.
 struct FieldError {
   double rms, max, outside;                    // at the original's vertices
-  double rms_inner, max_inner, outside_inner;  // at the centroids of the original's tets
+  double rms_inner, max_inner, outside_inner;  // at a random point in each of the original's tets, always the same
 };
 
 FieldError measure_field_error(const Mesh &original, const Mesh &result);

@@ -10,8 +10,6 @@
 
 #include <stdexcept>
 
-#include "stopwatch.hpp"
-
 namespace bench {
 namespace {
 
@@ -76,8 +74,8 @@ PeerRun Peer::run(std::int64_t tets) const {
   filter->SetTargetReduction(1.0 - double(tets) / double(grid_->GetNumberOfCells()));
   const Stopwatch watch;
   filter->Update();
-  const double seconds = watch.seconds();
-  return {seconds, mesh_from_vtk(*filter->GetOutput())};
+  const Cost cost = watch.cost();
+  return {cost, mesh_from_vtk(*filter->GetOutput())};
 }
 
 }  // namespace bench

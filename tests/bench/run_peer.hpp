@@ -5,11 +5,12 @@
 #include <vtkUnstructuredGrid.h>
 
 #include "bench_mesh.hpp"
+#include "stopwatch.hpp"
 
 namespace bench {
 
 struct PeerRun {
-  double seconds;  // of the filter alone
+  Cost cost;  // of the filter alone
   Mesh result;
 };
 

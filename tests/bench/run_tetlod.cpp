@@ -3,8 +3,6 @@
 #include <memory>
 #include <stdexcept>
 
-#include "stopwatch.hpp"
-
 namespace bench {
 namespace {
 
@@ -24,9 +22,13 @@ Context make_context(const Parameters &parameters) {
   tetlod_context *made = nullptr;
   check(tetlod_create(nullptr, &made), nullptr);
   Context context(made);
-  check(tetlod_set_preset(made, TETLOD_PRESET_PAPER), made);
-  check(tetlod_set_rho(made, parameters.rho), made);
-  check(tetlod_set_sigma(made, parameters.sigma), made);
+  check(tetlod_set_preset(made, parameters.preset), made);
+  if (parameters.preset == TETLOD_PRESET_PAPER) {
+    check(tetlod_set_rho(made, parameters.rho), made);
+    check(tetlod_set_sigma(made, parameters.sigma), made);
+  } else {
+    check(tetlod_set_real(made, TETLOD_OPT_TARGET_RATIO, parameters.target), made);
+  }
   check(tetlod_set_int(made, TETLOD_OPT_THREADS, parameters.threads), made);
   return context;
 }
@@ -70,19 +72,40 @@ std::vector<T> copied(const tetlod_array &array) {
   return std::vector<T>(begin, begin + array.tuples);
 }
 
+std::vector<std::array<std::int32_t, 3>> fetch_boundary(tetlod_context *context) {
+  std::int64_t triangles = 0;
+  check(tetlod_fetch_counts(context, nullptr, nullptr, &triangles), context);
+  std::vector<std::array<std::int32_t, 3>> boundary(static_cast<std::size_t>(triangles));
+  tetlod_array array = lent(TETLOD_INT32, boundary.size(), 3, boundary.data());
+  check(tetlod_fetch_boundary(context, 0, &array), context);
+  return boundary;
+}
+
 }  // namespace
 
+const char *preset_name(std::int32_t preset) {
+  switch (preset) {
+    case TETLOD_PRESET_FAST: return "fast";
+    case TETLOD_PRESET_ACCURATE: return "accurate";
+    default: return "paper";
+  }
+}
+
 TetlodRun run_tetlod(const Mesh &mesh, const Parameters &parameters) {
+  TetlodRun run{};
   const Stopwatch watch;
-  const Context context = make_context(parameters);
+  Context context = make_context(parameters);
   submit(context.get(), mesh);
   check(tetlod_run(context.get()), context.get());
   const Views views = view(context.get());
-  TetlodRun run{};
-  run.seconds = watch.seconds();
+  run.cost = watch.cost();
   run.report.struct_size = sizeof run.report;
   check(tetlod_fetch_report(context.get(), &run.report), context.get());
   run.result = {copied<Point>(views.points), copied<Tet>(views.tets), copied<double>(views.values)};
+  run.boundary = fetch_boundary(context.get());
+  const Stopwatch ending;  // the worker's seconds count once it is waited for
+  context.reset();
+  run.cost.cpu += ending.cost().cpu;
   return run;
 }
 

@@ -2,22 +2,29 @@
 #pragma once
 
 #include "bench_mesh.hpp"
+#include "stopwatch.hpp"
 #include "tetlod.h"
 
 namespace bench {
 
 struct Parameters {
-  double rho, sigma;
-  std::int64_t threads;
+  std::int32_t preset = TETLOD_PRESET_PAPER;
+  double rho = 0.01, sigma = 0.1;  // of the preset paper
+  double target = 0.1;             // part of the tets that the other presets keep
+  std::int64_t threads = 1;
 };
+
+// "paper", "fast" or "accurate".
+const char *preset_name(std::int32_t preset);
 
 struct TetlodRun {
-  double seconds;  // of the wall clock, from tetlod_create to the views of the result
+  Cost cost;  // from tetlod_create to the views of the result, and tetlod_destroy's share of the processors
   tetlod_run_report report;
   Mesh result;
+  std::vector<std::array<std::int32_t, 3>> boundary;  // of the result
 };
 
-// With the paper's preset. Throws std::runtime_error with the library's message.
+// Throws std::runtime_error with the library's message.
 TetlodRun run_tetlod(const Mesh &mesh, const Parameters &parameters);
 
 }  // namespace bench

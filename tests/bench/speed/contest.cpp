@@ -1,7 +1,5 @@
 #include "contest.hpp"
 
-#include <algorithm>
-
 #include "run_peer.hpp"
 
 namespace bench {
@@ -17,34 +15,38 @@ std::int64_t warm_up(const Mesh &mesh, const Parameters &parameters) {
   return run_tetlod(mesh, parameters).report.tets_out;
 }
 
-Rounds take_turns(const Mesh &mesh, const Parameters &parameters, int rounds) {
-  const Peer peer(mesh);
-  const std::int64_t goal = warm_up(mesh, parameters);
+Rounds take_turns(const Mesh &mesh, const Parameters &parameters, int rounds, bool with_peer) {
   Rounds all;
+  const std::int64_t goal = warm_up(mesh, parameters);
+  std::optional<Peer> peer;
+  if (with_peer) peer.emplace(mesh);
   for (int round = 0; round < rounds; round++) {
     const bool peer_first = round % 2 == 1;
-    if (peer_first) all.theirs.push_back(peer.run(goal));
+    if (peer && peer_first) all.theirs.push_back(peer->run(goal));
     all.ours.push_back(run_tetlod(mesh, parameters));
-    if (!peer_first) all.theirs.push_back(peer.run(goal));
+    if (peer && !peer_first) all.theirs.push_back(peer->run(goal));
   }
   return all;
 }
 
 template <class Run>
 Side side_of(const Mesh &mesh, const std::vector<Run> &runs) {
-  std::vector<double> seconds, rms;
+  std::vector<double> rms;
   FieldError error{};
   for (const Run &run : runs) {
     error = measure_field_error(mesh, run.result);
-    seconds.push_back(run.seconds);
     rms.push_back(error.rms);
   }
-  return {static_cast<std::int64_t>(runs.back().result.tets.size()), spread_of(seconds), spread_of(rms), error};
+  return {static_cast<std::int64_t>(runs.back().result.tets.size()),
+          spread_of(runs, [](const Run &run) { return run.cost.wall; }),
+          spread_of(runs, [](const Run &run) { return run.cost.cpu; }), spread_of(rms), error};
 }
 
-Spread ratio_of(const Rounds &all) {
+Spread speedup_of(const Rounds &all, double Cost::*seconds) {
   std::vector<double> ratios;
-  for (std::size_t i = 0; i < all.ours.size(); i++) ratios.push_back(all.ours[i].seconds / all.theirs[i].seconds);
+  for (std::size_t i = 0; i < all.theirs.size(); i++) {
+    ratios.push_back(all.theirs[i].cost.*seconds / all.ours[i].cost.*seconds);
+  }
   return spread_of(ratios);
 }
 
@@ -55,23 +57,16 @@ tetlod_run_report report_of(const std::vector<TetlodRun> &runs) {
        {&tetlod_run_report::seconds_prepare, &tetlod_run_report::seconds_boundary, &tetlod_run_report::seconds_decimate,
         &tetlod_run_report::seconds_sample, &tetlod_run_report::seconds_cull, &tetlod_run_report::seconds_remesh,
         &tetlod_run_report::seconds_values, &tetlod_run_report::seconds_total}) {
-    std::vector<double> seconds;
-    for (const TetlodRun &run : runs) seconds.push_back(run.report.*stage);
-    report.*stage = spread_of(seconds).median;
+    report.*stage = spread_of(runs, [stage](const TetlodRun &run) { return run.report.*stage; }).median;
   }
   return report;
 }
 
 }  // namespace
 
-Spread spread_of(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t n = values.size();
-  return {0.5 * (values[(n - 1) / 2] + values[n / 2]), values.front(), values.back()};
-}
-
-Contest hold_contest(const std::string &name, const Mesh &mesh, const Parameters &parameters, int rounds) {
-  const Rounds all = take_turns(mesh, parameters, rounds);
+Contest hold_contest(const std::string &name, const Mesh &mesh, const Parameters &parameters, int rounds,
+                     bool with_peer) {
+  const Rounds all = take_turns(mesh, parameters, rounds, with_peer);
   Contest contest{};
   contest.name = name;
   contest.points_in = static_cast<std::int64_t>(mesh.points.size());
@@ -79,9 +74,11 @@ Contest hold_contest(const std::string &name, const Mesh &mesh, const Parameters
   contest.parameters = parameters;
   contest.rounds = rounds;
   contest.tetlod = side_of(mesh, all.ours);
-  contest.peer = side_of(mesh, all.theirs);
-  contest.ratio = ratio_of(all);
   contest.report = report_of(all.ours);
+  if (!with_peer) return contest;
+  contest.peer = side_of(mesh, all.theirs);
+  contest.wall_speedup = speedup_of(all, &Cost::wall);
+  contest.cpu_speedup = speedup_of(all, &Cost::cpu);
   return contest;
 }
 

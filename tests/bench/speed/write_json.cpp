@@ -24,7 +24,8 @@ Json json_of(const FieldError &error) {
 
 Json json_of(const Side &side) {
   return {{"tets_out", side.tets_out},
-          {"seconds", json_of(side.seconds)},
+          {"wall", json_of(side.wall)},
+          {"cpu", json_of(side.cpu)},
           {"rms", json_of(side.rms)},
           {"error", json_of(side.error)}};
 }
@@ -48,12 +49,32 @@ Json counts_of(const tetlod_run_report &run) {
           {"worker_peak_bytes", run.worker_peak_bytes}};
 }
 
+Json json_of(const Parameters &p) {
+  Json json = {{"preset", preset_name(p.preset)}, {"threads", p.threads}};
+  if (p.preset == TETLOD_PRESET_PAPER) {
+    json["rho"] = p.rho;
+    json["sigma"] = p.sigma;
+  } else {
+    json["target"] = p.target;
+  }
+  return json;
+}
+
 Json json_of(const Contest &contest) {
-  return {
-      {"name", contest.name},          {"points_in", contest.points_in},       {"tets_in", contest.tets_in},
-      {"rho", contest.parameters.rho}, {"sigma", contest.parameters.sigma},    {"threads", contest.parameters.threads},
-      {"rounds", contest.rounds},      {"ratio", json_of(contest.ratio)},      {"tetlod", json_of(contest.tetlod)},
-      {"peer", json_of(contest.peer)}, {"seconds", stages_of(contest.report)}, {"counts", counts_of(contest.report)}};
+  Json json = {{"name", contest.name},
+               {"points_in", contest.points_in},
+               {"tets_in", contest.tets_in},
+               {"parameters", json_of(contest.parameters)},
+               {"rounds", contest.rounds},
+               {"tetlod", json_of(contest.tetlod)},
+               {"seconds", stages_of(contest.report)},
+               {"counts", counts_of(contest.report)},
+               {"bytes_in_all", bytes_in_all(contest)}};
+  if (!contest.peer) return json;
+  json["peer"] = json_of(*contest.peer);
+  json["wall_speedup"] = json_of(contest.wall_speedup);
+  json["cpu_speedup"] = json_of(contest.cpu_speedup);
+  return json;
 }
 
 Json json_of(const std::vector<Contest> &contests) {

@@ -39,24 +39,32 @@ void row(std::FILE *to, const std::string &label, const std::string &ours) {
   std::fprintf(to, "  %-*s%*s\n", kLabelWidth, label.c_str(), kColumnWidth, ours.c_str());
 }
 
+// Of both; the peer's column is empty where it was not run.
+template <class Figure>
+void both(std::FILE *to, const Contest &c, const std::string &label, const Figure &figure) {
+  row(to, label, figure(c.tetlod), c.peer ? figure(*c.peer) : "");
+}
+
 void print_sizes(std::FILE *to, const Contest &c) {
-  const double tets = double(c.tets_in);
-  row(to, "tets", grouped(c.tetlod.tets_out), grouped(c.peer.tets_out));
-  row(to, "  share of the original's", percent(double(c.tetlod.tets_out) / tets),
-      percent(double(c.peer.tets_out) / tets));
+  both(to, c, "tets", [](const Side &side) { return grouped(side.tets_out); });
+  both(to, c, "  share of the original's",
+       [&c](const Side &side) { return percent(double(side.tets_out) / double(c.tets_in)); });
 }
 
 void print_seconds(std::FILE *to, const Contest &c) {
-  row(to, "seconds, median (range)", with_spread(c.tetlod.seconds, 1, 3), with_spread(c.peer.seconds, 1, 3));
-  row(to, "  over the peer's", with_spread(c.ratio, 1, 3), "1");
+  both(to, c, "CPU seconds, median (range)", [](const Side &side) { return with_spread(side.cpu, 1, 3); });
+  both(to, c, "wall seconds", [](const Side &side) { return with_spread(side.wall, 1, 3); });
+  if (!c.peer) return;
+  row(to, "times faster: CPU", with_spread(c.cpu_speedup, 1, 1), "1");
+  row(to, "  wall", with_spread(c.wall_speedup, 1, 1), "1");
 }
 
 void print_errors(std::FILE *to, const Contest &c) {
-  row(to, "RMS at vertices, % of range", with_spread(c.tetlod.rms, 100, 2), with_spread(c.peer.rms, 100, 2));
-  row(to, "  largest", percent(c.tetlod.error.max), percent(c.peer.error.max));
-  row(to, "  vertices outside, ignored", percent(c.tetlod.error.outside), percent(c.peer.error.outside));
-  row(to, "RMS at centroids of tets", percent(c.tetlod.error.rms_inner), percent(c.peer.error.rms_inner));
-  row(to, "  largest", percent(c.tetlod.error.max_inner), percent(c.peer.error.max_inner));
+  both(to, c, "RMS at vertices, % of range", [](const Side &side) { return with_spread(side.rms, 100, 2); });
+  both(to, c, "  largest", [](const Side &side) { return percent(side.error.max); });
+  both(to, c, "  vertices outside, ignored", [](const Side &side) { return percent(side.error.outside); });
+  both(to, c, "RMS at points inside tets", [](const Side &side) { return percent(side.error.rms_inner); });
+  both(to, c, "  largest", [](const Side &side) { return percent(side.error.max_inner); });
 }
 
 void print_counts(std::FILE *to, const tetlod_run_report &run) {
@@ -78,9 +86,17 @@ void print_stages(std::FILE *to, const tetlod_run_report &run) {
   row(to, "  values of Steiner points", fixed(run.seconds_values, 3));
 }
 
-void print_memory(std::FILE *to, const tetlod_run_report &run) {
+void print_memory(std::FILE *to, const Contest &c) {
+  const tetlod_run_report &run = c.report;
   row(to, "peak MB: in the host", fixed(double(run.peak_bytes) / 1e6, 1));
+  row(to, "  bytes a tet of the original", fixed(double(run.peak_bytes) / double(c.tets_in), 1));
   row(to, "  in tetlod-remesh", fixed(double(run.worker_peak_bytes) / 1e6, 1));
+}
+
+std::string described(const Parameters &p) {
+  const std::string preset = std::string("preset ") + preset_name(p.preset);
+  if (p.preset != TETLOD_PRESET_PAPER) return preset + " at " + percent(p.target);
+  return preset + ", rho " + fixed(p.rho, 3) + ", sigma " + fixed(p.sigma, 3);
 }
 
 }  // namespace
@@ -95,33 +111,34 @@ void print_head(std::FILE *to) {
 }
 
 void print_contest(std::FILE *to, const Contest &c) {
-  std::fprintf(to, "\n%s: %s tets, %s vertices; rho %g, sigma %g, preset paper; %" PRId64 " thread%s; %d round%s\n",
-               c.name.c_str(), grouped(c.tets_in).c_str(), grouped(c.points_in).c_str(), c.parameters.rho,
-               c.parameters.sigma, c.parameters.threads, c.parameters.threads == 1 ? "" : "s", c.rounds,
-               c.rounds == 1 ? "" : "s");
+  std::fprintf(to, "\n%s: %s tets, %s vertices; %s; %" PRId64 " thread%s; %d round%s\n", c.name.c_str(),
+               grouped(c.tets_in).c_str(), grouped(c.points_in).c_str(), described(c.parameters).c_str(),
+               c.parameters.threads, c.parameters.threads == 1 ? "" : "s", c.rounds, c.rounds == 1 ? "" : "s");
   row(to, "", "tetlod", "VTK's edge collapse");
   print_sizes(to, c);
   print_seconds(to, c);
   print_errors(to, c);
   print_counts(to, c.report);
   print_stages(to, c.report);
-  print_memory(to, c.report);
+  print_memory(to, c);
   std::fflush(to);
 }
 
 void print_growth(std::FILE *to, const Growth &growth) {
   std::fprintf(to, "\nGrowth on the generated front\n");
-  std::fprintf(to, "  %12s %9s %9s %14s %14s %9s %12s %12s\n", "tets", "rho", "kept", "tetlod s", "peer s", "ratio",
-               "tetlod RMS", "peer RMS");
+  std::fprintf(to, "  %12s %9s %12s %12s %12s %12s %14s %10s %10s\n", "tets", "kept", "tetlod CPU", "wall", "peer CPU",
+               "wall", "bytes a tet", "in all MB", "tetlod RMS");
   for (const Contest &c : growth.sizes) {
-    std::fprintf(to, "  %12s %9.4f %9s %14.3f %14.3f %9.3f %12s %12s\n", grouped(c.tets_in).c_str(), c.parameters.rho,
-                 percent(double(c.tetlod.tets_out) / double(c.tets_in)).c_str(), c.tetlod.seconds.median,
-                 c.peer.seconds.median, c.ratio.median, percent(c.tetlod.rms.median).c_str(),
-                 percent(c.peer.rms.median).c_str());
+    std::fprintf(to, "  %12s %9s %12.3f %12.3f %12s %12s %14.1f %10.0f %10s\n", grouped(c.tets_in).c_str(),
+                 percent(double(c.tetlod.tets_out) / double(c.tets_in)).c_str(), c.tetlod.cpu.median,
+                 c.tetlod.wall.median, c.peer ? fixed(c.peer->cpu.median, 3).c_str() : "",
+                 c.peer ? fixed(c.peer->wall.median, 3).c_str() : "", double(c.report.peak_bytes) / double(c.tets_in),
+                 bytes_in_all(c) / 1e6, percent(c.tetlod.rms.median).c_str());
   }
   if (growth.sizes.size() < 2) return;
-  std::fprintf(to, "  the least seconds grow as tets to the power %.2f (tetlod) and %.2f (the peer)\n",
-               growth.tetlod_exponent, growth.peer_exponent);
+  std::fprintf(to, "  the least CPU seconds grow as tets to the power %.2f (tetlod)", growth.tetlod_exponent);
+  if (growth.peer_exponent > 0) std::fprintf(to, " and %.2f (the peer)", growth.peer_exponent);
+  std::fprintf(to, "\n");
 }
 
 }  // namespace bench

@@ -1,0 +1,97 @@
+// Error against size for each preset and VTK's edge collapse, on real sets: a table, a plot, and JSON.
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <filesystem>
+
+#include "draw_plot.hpp"
+#include "sweep_file.hpp"
+#include "write_table.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+  std::vector<std::string> sets{"bluntfin", "comb", "spx", "disk_out_ref", "fire", "lv_active"};
+  bench::SweepOptions sweep;
+  std::string out = "out/accuracy", from;
+};
+
+void add_options(CLI::App &app, Arguments &a) {
+  app.add_option("sets", a.sets, "names in TETLOD_DATA_DIR or ../shared/data, or .vtu files")->capture_default_str();
+  app.add_option("--sizes", a.sweep.sizes, "parts of the tets that are kept, falling")
+      ->delimiter(',')
+      ->check(CLI::Range(1e-6, 1.0))
+      ->capture_default_str();
+  app.add_option("--rounds", a.sweep.rounds, "of which medians are taken")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  app.add_option("--threads", a.sweep.threads, "of tetlod, 0: one a core; the peer has one")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  app.add_option("--out", a.out, "writes this name with .md, .svg and .json")->capture_default_str();
+  app.add_option("--judge", a.sweep.judge, "a program that is asked about the same results")
+      ->envname("TETLOD_JUDGE")
+      ->type_name("PROGRAM");
+  app.add_option("--from", a.from, "measures nothing: table and plot of an earlier run's JSON")->type_name("FILE");
+}
+
+std::optional<std::string> path_of(const std::string &set) {
+  if (fs::path(set).has_extension()) return set;
+  return bench::find_data(set + ".vtu");
+}
+
+void write_markdown(const std::string &path, const std::vector<bench::Sweep> &sweeps) {
+  std::FILE *const file = std::fopen(path.c_str(), "w");
+  if (file == nullptr) throw std::runtime_error(path + ": cannot be written");
+  bench::write_table_head(file);
+  for (const bench::Sweep &sweep : sweeps) bench::write_table(file, sweep);
+  std::fclose(file);
+}
+
+// Whole after each set, so that a long run that is stopped leaves what it has.
+void write_all(const Arguments &a, const std::vector<bench::Sweep> &sweeps) {
+  if (a.from.empty()) bench::write_sweeps(a.out + ".json", sweeps, a.sweep);
+  write_markdown(a.out + ".md", sweeps);
+  bench::draw_plot(a.out + ".svg", sweeps);
+}
+
+std::vector<bench::Sweep> measure(const Arguments &a) {
+  std::vector<bench::Sweep> sweeps;
+  for (const std::string &set : a.sets) {
+    const std::optional<std::string> path = path_of(set);
+    if (!path) {
+      std::printf("%s: skipped, there is no such set in TETLOD_DATA_DIR or in ../shared/data\n", set.c_str());
+      continue;
+    }
+    sweeps.push_back(bench::sweep_set(fs::path(set).stem().string(), bench::read_mesh(*path), a.sweep));
+    write_all(a, sweeps);
+  }
+  return sweeps;
+}
+
+void run(const Arguments &a) {
+  if (fs::path(a.out).has_parent_path()) fs::create_directories(fs::path(a.out).parent_path());
+  const std::vector<bench::Sweep> sweeps = a.from.empty() ? measure(a) : bench::read_sweeps(a.from);
+  if (sweeps.empty()) throw std::runtime_error("nothing was measured");
+  write_all(a, sweeps);
+  bench::write_table_head(stdout);
+  for (const bench::Sweep &sweep : sweeps) bench::write_table(stdout, sweep);
+  std::printf("\nwritten: %s.md, .svg%s\n", a.out.c_str(), a.from.empty() ? ", .json" : "");
+}
+
+}  // namespace
+
+int main(int argc, char **argv) {
+  Arguments arguments;
+  CLI::App app("Error against size: tetlod's presets and VTK's edge collapse.", "bench_accuracy");
+  add_options(app, arguments);
+  CLI11_PARSE(app, argc, argv);
+  try {
+    run(arguments);
+    return EXIT_SUCCESS;
+  } catch (const std::exception &error) {
+    std::fprintf(stderr, "bench_accuracy: %s\n", error.what());
+    return EXIT_FAILURE;
+  }
+}

@@ -1,0 +1,143 @@
+// The speed of tetlod beside others: VTK's edge collapse on whole runs, and how both grow. Prints tables.
+//
+// Nothing here is compared with stored seconds: machines differ. What is compared is the two, in one process, in turns.
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <limits>
+
+#include "print_tables.hpp"
+#include "write_json.hpp"
+
+namespace {
+
+struct Arguments {
+  std::string file;
+  std::vector<double> file_targets{0.09};
+  std::int64_t tets = 1000000;
+  std::vector<double> targets{0.1, 0.02};
+  bench::GrowthOptions growth;
+  double growth_target = 0.01;
+  bool no_growth = false;
+  int rounds = 3;
+  std::vector<std::int64_t> threads{1, 2};
+  double ratio_limit = std::numeric_limits<double>::infinity();
+  std::string json;
+};
+
+void add_options(CLI::App &app, Arguments &a) {
+  const CLI::Range positive(std::int64_t{48}, std::int64_t{100000000});
+  const CLI::Range part(1e-6, 1.0);
+  app.add_option("--file", a.file, "a .vtu file instead of the blunt fin")->type_name("FILE");
+  app.add_option("--file-targets", a.file_targets, "parts of its tets that are kept")->check(part)->delimiter(',');
+  app.add_option("--tets", a.tets, "size of the generated mesh")->check(positive)->capture_default_str();
+  app.add_option("--targets", a.targets, "parts of its tets that are kept")->check(part)->delimiter(',');
+  app.add_option("--time", a.growth.time, "where the generated front stands, 0 to 1")->capture_default_str();
+  app.add_option("--growth", a.growth.tets, "sizes of the growth table")->check(positive)->delimiter(',');
+  app.add_option("--growth-target", a.growth_target, "part of the tets kept there")->check(part)->capture_default_str();
+  app.add_option("--peer-limit", a.growth.peer_limit, "tets beyond which growth goes without the peer")
+      ->capture_default_str();
+  app.add_flag("--no-growth", a.no_growth, "no growth table");
+  app.add_option("--rounds", a.rounds, "of which medians are taken")->check(CLI::Range(1, 1000))->capture_default_str();
+  app.add_option("--threads", a.threads, "of tetlod, in turn; 0: one a core; the peer has one")
+      ->check(CLI::Range(0, 1024))
+      ->delimiter(',');
+  app.add_option("--ratio-limit", a.ratio_limit, "fails when tetlod takes more than this times the peer's CPU seconds")
+      ->type_name("X");
+  app.add_option("--json", a.json, "writes all figures there too")->type_name("FILE");
+}
+
+bench::Parameters fast_at(double target, std::int64_t threads) {
+  bench::Parameters parameters;
+  parameters.preset = TETLOD_PRESET_FAST;
+  parameters.target = target;
+  parameters.threads = threads;
+  return parameters;
+}
+
+// As published; chosen for the least RMS at the paper's 9 % of the tets of the blunt fin.
+bench::Parameters published(std::int64_t threads) {
+  bench::Parameters parameters;
+  parameters.rho = 0.11;
+  parameters.sigma = 0.575;
+  parameters.threads = threads;
+  return parameters;
+}
+
+class Bench {
+ public:
+  explicit Bench(const Arguments &arguments) : a_(arguments) {}
+
+  void run() {
+    bench::print_head(stdout);
+    real_mesh();
+    generated_mesh();
+    if (!a_.no_growth && !a_.growth.tets.empty()) grow();
+    if (!a_.json.empty()) bench::write_json(a_.json, contests_, growth_);
+  }
+
+  // 0 when tetlod kept within the limit on every mesh.
+  int judged() const {
+    int status = EXIT_SUCCESS;
+    for (const bench::Contest &contest : contests_) {
+      const double ratio = 1 / contest.cpu_speedup.median;
+      if (ratio <= a_.ratio_limit) continue;
+      std::fprintf(stderr, "tetlod_bench: %s: %.3f times the peer's CPU seconds, more than %.3f\n",
+                   contest.name.c_str(), ratio, a_.ratio_limit);
+      status = EXIT_FAILURE;
+    }
+    return status;
+  }
+
+ private:
+  void contest(const std::string &name, const bench::Mesh &mesh, const bench::Parameters &parameters) {
+    contests_.push_back(bench::hold_contest(name, mesh, parameters, a_.rounds, true));
+    bench::print_contest(stdout, contests_.back());
+  }
+
+  void real_mesh() {
+    const std::optional<std::string> path = a_.file.empty() ? bench::find_data("bluntfin.vtu") : a_.file;
+    if (!path) {
+      std::printf("\nblunt fin: skipped, there is no bluntfin.vtu in TETLOD_DATA_DIR or in ../shared/data\n");
+      return;
+    }
+    const std::string name = a_.file.empty() ? "blunt fin" : a_.file;
+    const bench::Mesh mesh = bench::read_mesh(*path);
+    for (const std::int64_t threads : a_.threads) {
+      for (const double target : a_.file_targets) contest(name, mesh, fast_at(target, threads));
+    }
+    if (a_.file.empty()) contest(name, mesh, published(a_.threads.front()));
+  }
+
+  void generated_mesh() {
+    const bench::Mesh mesh = bench::make_front_mesh(a_.tets, a_.growth.time);
+    for (const std::int64_t threads : a_.threads) {
+      for (const double target : a_.targets) contest("generated front", mesh, fast_at(target, threads));
+    }
+  }
+
+  void grow() {
+    growth_ = bench::measure_growth(a_.growth, fast_at(a_.growth_target, a_.threads.back()), a_.rounds);
+    bench::print_growth(stdout, *growth_);
+  }
+
+  const Arguments &a_;
+  std::vector<bench::Contest> contests_;
+  std::optional<bench::Growth> growth_;
+};
+
+}  // namespace
+
+int main(int argc, char **argv) {
+  Arguments arguments;
+  CLI::App app("The speed of tetlod beside others, in turns.", "tetlod_bench");
+  add_options(app, arguments);
+  CLI11_PARSE(app, argc, argv);
+  try {
+    Bench bench(arguments);
+    bench.run();
+    return bench.judged();
+  } catch (const std::exception &error) {
+    std::fprintf(stderr, "tetlod_bench: %s\n", error.what());
+    return EXIT_FAILURE;
+  }
+}
