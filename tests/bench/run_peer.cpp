@@ -1,43 +1,16 @@
 #include "run_peer.hpp"
 
-#include <vtkCellType.h>
-#include <vtkDoubleArray.h>
 #include <vtkIdList.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
-#include <vtkPoints.h>
 #include <vtkUnstructuredGridQuadricDecimation.h>
 
 #include <stdexcept>
 
+#include "vtk_grid.hpp"
+
 namespace bench {
 namespace {
-
-constexpr const char *kField = "scalar";
-
-vtkSmartPointer<vtkPoints> points_for_vtk(const std::vector<Point> &points) {
-  auto made = vtkSmartPointer<vtkPoints>::New();
-  made->SetDataTypeToDouble();
-  made->SetNumberOfPoints(static_cast<vtkIdType>(points.size()));
-  for (std::size_t i = 0; i < points.size(); i++) made->SetPoint(static_cast<vtkIdType>(i), points[i].data());
-  return made;
-}
-
-vtkSmartPointer<vtkDoubleArray> values_for_vtk(const std::vector<double> &values) {
-  auto made = vtkSmartPointer<vtkDoubleArray>::New();
-  made->SetName(kField);
-  made->SetNumberOfTuples(static_cast<vtkIdType>(values.size()));
-  for (std::size_t i = 0; i < values.size(); i++) made->SetValue(static_cast<vtkIdType>(i), values[i]);
-  return made;
-}
-
-void add_tets(const std::vector<Tet> &tets, vtkUnstructuredGrid &grid) {
-  grid.Allocate(static_cast<vtkIdType>(tets.size()));
-  for (const Tet &tet : tets) {
-    const vtkIdType corners[4] = {tet[0], tet[1], tet[2], tet[3]};
-    grid.InsertNextCell(VTK_TETRA, 4, corners);
-  }
-}
 
 Mesh mesh_from_vtk(vtkUnstructuredGrid &grid) {
   Mesh mesh;
@@ -61,11 +34,7 @@ Mesh mesh_from_vtk(vtkUnstructuredGrid &grid) {
 
 }  // namespace
 
-Peer::Peer(const Mesh &mesh) : grid_(vtkSmartPointer<vtkUnstructuredGrid>::New()) {
-  grid_->SetPoints(points_for_vtk(mesh.points));
-  grid_->GetPointData()->SetScalars(values_for_vtk(mesh.values));
-  add_tets(mesh.tets, *grid_);
-}
+Peer::Peer(const Mesh &mesh) : grid_(grid_for_vtk(mesh)) {}
 
 PeerRun Peer::run(std::int64_t tets) const {
   vtkNew<vtkUnstructuredGridQuadricDecimation> filter;

@@ -32,8 +32,8 @@ none='$^'
 
 rule 'OpenMesh is included in impl/decimate_boundary.cpp alone' \
   "$(lines "${include}OpenMesh/" 'impl/decimate_boundary\.cpp$' "${all[@]}")"
-rule 'TetGen is included under impl/tetlod-remesh alone' \
-  "$(lines "${include}tetgen" 'impl/tetlod-remesh/' "${all[@]}")"
+rule 'TetGen is included under impl/tetlod-remesh and tests/bench/rivals alone' \
+  "$(lines "${include}tetgen" 'impl/tetlod-remesh/|tests/bench/rivals/' "${all[@]}")"
 rule 'VTK is included under bindings/cli, bindings/vtk, tests/vtk and tests/bench alone' \
   "$(lines "${include}vtk" 'bindings/cli/|bindings/vtk/|tests/vtk/|tests/bench/' "${all[@]}")"
 rule 'impl/ does not know tetlod.h' \

@@ -49,9 +49,9 @@ std::string style_of(const Look &look) {
 class Axis {
  public:
   Axis(double least, double most, double begin, double end) : begin_(begin), end_(end) {
-    low_ = round_down(least);
+    low_ = round_down(least * kSlack);
     high_ = low_;
-    while (high_ < most * (1 - 1e-9)) high_ = next(high_);
+    while (high_ < most / kSlack) high_ = next(high_);
     if (high_ == low_) high_ = next(high_);
   }
   double at(double value) const { return begin_ + (end_ - begin_) * std::log(value / low_) / std::log(high_ / low_); }
@@ -62,6 +62,8 @@ class Axis {
   }
 
  private:
+  static constexpr double kSlack = 1.03;  // so far beyond an end a mark is still read
+
   static double decade(double value) { return std::pow(10.0, std::floor(std::log10(value) + 1e-9)); }
   static double round_down(double value) {
     const double unit = decade(value), lead = value / unit;

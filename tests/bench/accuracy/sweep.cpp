@@ -55,12 +55,15 @@ Quality median_of(const std::vector<Quality> &all) {
   return middle;
 }
 
+double median_tets(const std::vector<PeerRun> &runs) {
+  return spread_of(runs, [](const PeerRun &run) { return double(run.result.tets.size()); }).median;
+}
+
 Entry peer_entry(const Original &original, const std::vector<PeerRun> &runs) {
   std::vector<Quality> qualities;
   for (const PeerRun &run : runs) qualities.push_back(measure_quality(original, run.result));
-  const double tets = spread_of(runs, [](const PeerRun &run) { return double(run.result.tets.size()); }).median;
   const auto [wall, cpu] = costs_of(runs);
-  const Entry entry{"peer", std::llround(tets), median_of(qualities), wall, cpu};
+  const Entry entry{"peer", std::llround(median_tets(runs)), median_of(qualities), wall, cpu};
   compare_judges(original, entry, runs.back().result);
   return entry;
 }
@@ -88,15 +91,15 @@ std::vector<Parameters> presets_at(const Mesh &mesh, std::int64_t tets, std::int
   return presets;
 }
 
-// In turns; `peer` none: the presets alone. `goal`: what the peer is asked for, or the presets without it.
+// `peer` null: the presets alone. `goal`: what the peer is asked for, or the presets without it. The peer is first: it
+// is random where it stops, and the presets are asked for its median.
 SizeRow measure_row(const Original &original, const Peer *peer, std::int64_t goal, const SweepOptions &options) {
   std::vector<PeerRun> theirs;
-  if (peer) theirs.push_back(peer->run(goal));
-  if (peer) goal = std::int64_t(theirs.front().result.tets.size());
+  for (int round = 0; peer && round < options.rounds; round++) theirs.push_back(peer->run(goal));
+  if (peer) goal = std::llround(median_tets(theirs));
   const std::vector<Parameters> presets = presets_at(original.mesh, goal, options.threads);
   std::vector<std::vector<TetlodRun>> ours(presets.size());
   for (int round = 0; round < options.rounds; round++) {
-    if (peer && round > 0) theirs.push_back(peer->run(goal));
     for (std::size_t p = 0; p < presets.size(); p++) ours[p].push_back(run_tetlod(original.mesh, presets[p]));
   }
   SizeRow row{double(goal) / double(original.mesh.tets.size()), {}};

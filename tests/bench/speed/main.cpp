@@ -1,10 +1,15 @@
-// The speed of tetlod beside others: VTK's edge collapse on whole runs, and how both grow. Prints tables.
+// The speed of tetlod beside others: VTK's edge collapse on whole runs, others on stages, what no run can go under, and
+// how it grows. Prints tables.
 //
-// Nothing here is compared with stored seconds: machines differ. What is compared is the two, in one process, in turns.
+// Nothing here is compared with stored seconds: machines differ. What is compared takes turns in one run.
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <limits>
 
+#include "boundary_duel.hpp"
+#include "floor_duel.hpp"
+#include "kd_tree_duel.hpp"
+#include "location_duel.hpp"
 #include "print_tables.hpp"
 #include "write_json.hpp"
 
@@ -17,7 +22,7 @@ struct Arguments {
   std::vector<double> targets{0.1, 0.02};
   bench::GrowthOptions growth;
   double growth_target = 0.01;
-  bool no_growth = false;
+  bool no_growth = false, no_stages = false;
   int rounds = 3;
   std::vector<std::int64_t> threads{1, 2};
   double ratio_limit = std::numeric_limits<double>::infinity();
@@ -37,6 +42,7 @@ void add_options(CLI::App &app, Arguments &a) {
   app.add_option("--peer-limit", a.growth.peer_limit, "tets beyond which growth goes without the peer")
       ->capture_default_str();
   app.add_flag("--no-growth", a.no_growth, "no growth table");
+  app.add_flag("--no-stages", a.no_stages, "no duels about stages and floors");
   app.add_option("--rounds", a.rounds, "of which medians are taken")->check(CLI::Range(1, 1000))->capture_default_str();
   app.add_option("--threads", a.threads, "of tetlod, in turn; 0: one a core; the peer has one")
       ->check(CLI::Range(0, 1024))
@@ -63,6 +69,8 @@ bench::Parameters published(std::int64_t threads) {
   return parameters;
 }
 
+constexpr double kBoundaryKept = 0.1;  // part of the edges, of the duels about decimation
+
 class Bench {
  public:
   explicit Bench(const Arguments &arguments) : a_(arguments) {}
@@ -71,8 +79,9 @@ class Bench {
     bench::print_head(stdout);
     real_mesh();
     generated_mesh();
+    bench::print_speeds(stdout, contests_, duels_);
     if (!a_.no_growth && !a_.growth.tets.empty()) grow();
-    if (!a_.json.empty()) bench::write_json(a_.json, contests_, growth_);
+    if (!a_.json.empty()) bench::write_json(a_.json, contests_, duels_, growth_);
   }
 
   // 0 when tetlod kept within the limit on every mesh.
@@ -106,6 +115,7 @@ class Bench {
       for (const double target : a_.file_targets) contest(name, mesh, fast_at(target, threads));
     }
     if (a_.file.empty()) contest(name, mesh, published(a_.threads.front()));
+    duels_about(name, mesh, a_.file_targets);
   }
 
   void generated_mesh() {
@@ -113,7 +123,19 @@ class Bench {
     for (const std::int64_t threads : a_.threads) {
       for (const double target : a_.targets) contest("generated front", mesh, fast_at(target, threads));
     }
+    duels_about("generated front", mesh, a_.targets);
   }
+
+  void duels_about(const std::string &name, const bench::Mesh &mesh, const std::vector<double> &targets) {
+    if (a_.no_stages) return;
+    const std::int64_t threads = a_.threads.back();
+    add(bench::hold_boundary_duels(name, mesh, kBoundaryKept, threads, a_.rounds));
+    add(bench::hold_kd_tree_duels(name, mesh, a_.rounds));
+    add(bench::hold_location_duels(name, mesh, targets.front(), threads, a_.rounds));
+    for (const double target : targets) add(bench::hold_floor_duels(name, mesh, fast_at(target, threads), a_.rounds));
+  }
+
+  void add(const std::vector<bench::Duel> &duels) { duels_.insert(duels_.end(), duels.begin(), duels.end()); }
 
   void grow() {
     growth_ = bench::measure_growth(a_.growth, fast_at(a_.growth_target, a_.threads.back()), a_.rounds);
@@ -122,6 +144,7 @@ class Bench {
 
   const Arguments &a_;
   std::vector<bench::Contest> contests_;
+  std::vector<bench::Duel> duels_;
   std::optional<bench::Growth> growth_;
 };
 

@@ -99,6 +99,26 @@ std::string described(const Parameters &p) {
   return preset + ", rho " + fixed(p.rho, 3) + ", sigma " + fixed(p.sigma, 3);
 }
 
+std::string threads_of(const Parameters &p) {
+  return ", " + std::to_string(p.threads) + (p.threads == 1 ? " thread" : " threads");
+}
+
+std::string three(const Spread &speed) {
+  char text[96];
+  std::snprintf(text, sizeof text, "%.3g / %.3g / %.3g", speed.least, speed.median, speed.most);
+  return text;
+}
+
+void print_speed(std::FILE *to, const Duel &d) {
+  std::fprintf(to, "  %-58s %-16s %-26s ", d.task.c_str(), d.set.c_str(), d.rival.c_str());
+  if (!d.skipped.empty()) {
+    std::fprintf(to, "skipped: %s\n", d.skipped.c_str());
+    return;
+  }
+  std::fprintf(to, "%9.1f %9.1f %20s %20s\n", 1e3 * d.cpu.median, 1e3 * d.rival_cpu.median,
+               three(d.cpu_speedup).c_str(), three(d.wall_speedup).c_str());
+}
+
 }  // namespace
 
 void print_head(std::FILE *to) {
@@ -121,6 +141,19 @@ void print_contest(std::FILE *to, const Contest &c) {
   print_counts(to, c.report);
   print_stages(to, c.report);
   print_memory(to, c);
+  std::fflush(to);
+}
+
+void print_speeds(std::FILE *to, const std::vector<Contest> &contests, const std::vector<Duel> &duels) {
+  std::fprintf(to, "\nTimes faster than others, least / median / most of the rounds\n");
+  std::fprintf(to, "  %-58s %-16s %-26s %9s %9s %20s %20s\n", "task", "set", "rival", "CPU ms", "rival's", "CPU",
+               "wall");
+  for (const Contest &c : contests) {
+    if (!c.peer) continue;
+    print_speed(to, {"whole run, " + described(c.parameters) + threads_of(c.parameters), c.name, "VTK's edge collapse",
+                     "", c.tetlod.cpu, c.tetlod.wall, c.peer->cpu, c.peer->wall, c.cpu_speedup, c.wall_speedup});
+  }
+  for (const Duel &duel : duels) print_speed(to, duel);
   std::fflush(to);
 }
 

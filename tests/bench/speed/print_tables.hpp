@@ -3,6 +3,7 @@
 
 #include <cstdio>
 
+#include "duel.hpp"
 #include "growth.hpp"
 
 namespace bench {
@@ -10,6 +11,8 @@ namespace bench {
 // What the figures depend on: the library, the cores, and how busy they are.
 void print_head(std::FILE *to);
 void print_contest(std::FILE *to, const Contest &contest);
+// Contests and duels in one table of speeds: least, median and most of the rounds.
+void print_speeds(std::FILE *to, const std::vector<Contest> &contests, const std::vector<Duel> &duels);
 void print_growth(std::FILE *to, const Growth &growth);
 
 }  // namespace bench

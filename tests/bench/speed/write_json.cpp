@@ -83,10 +83,32 @@ Json json_of(const std::vector<Contest> &contests) {
   return list;
 }
 
+Json json_of(const Duel &duel) {
+  Json json = {{"task", duel.task}, {"set", duel.set}, {"rival", duel.rival}};
+  if (!duel.skipped.empty()) {
+    json["skipped"] = duel.skipped;
+    return json;
+  }
+  json["cpu"] = json_of(duel.cpu);
+  json["wall"] = json_of(duel.wall);
+  json["rival_cpu"] = json_of(duel.rival_cpu);
+  json["rival_wall"] = json_of(duel.rival_wall);
+  json["cpu_speedup"] = json_of(duel.cpu_speedup);
+  json["wall_speedup"] = json_of(duel.wall_speedup);
+  return json;
+}
+
+Json json_of(const std::vector<Duel> &duels) {
+  Json list = Json::array();
+  for (const Duel &duel : duels) list.push_back(json_of(duel));
+  return list;
+}
+
 }  // namespace
 
-void write_json(const std::string &path, const std::vector<Contest> &contests, const std::optional<Growth> &growth) {
-  Json json = {{"tetlod", tetlod_build_info()}, {"contests", json_of(contests)}};
+void write_json(const std::string &path, const std::vector<Contest> &contests, const std::vector<Duel> &duels,
+                const std::optional<Growth> &growth) {
+  Json json = {{"tetlod", tetlod_build_info()}, {"contests", json_of(contests)}, {"duels", json_of(duels)}};
   if (growth) {
     json["growth"] = {{"sizes", json_of(growth->sizes)},
                       {"tetlod_exponent", growth->tetlod_exponent},

@@ -3,11 +3,13 @@
 
 #include <optional>
 
+#include "duel.hpp"
 #include "growth.hpp"
 
 namespace bench {
 
 // Throws std::runtime_error when the file cannot be written.
-void write_json(const std::string &path, const std::vector<Contest> &contests, const std::optional<Growth> &growth);
+void write_json(const std::string &path, const std::vector<Contest> &contests, const std::vector<Duel> &duels,
+                const std::optional<Growth> &growth);
 
 }  // namespace bench
