@@ -60,6 +60,7 @@ tetlod_run_report report_of(const Outcome &outcome) {
   to.steiner_points = from.steiner_points;
   to.inserted_points = from.inserted_points;
   to.max_error = from.max_error;
+  to.max_deviation = from.max_deviation;
   to.points_out = from.points_out;
   to.tets_out = from.tets_out;
   to.remesh_attempts = from.remesh_attempts;

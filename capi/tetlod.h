@@ -88,7 +88,7 @@ enum {
   TETLOD_ERR_MESH_PARTITION = 36,    /* reserved for partitioned meshes */
   TETLOD_ERR_MESH_TOO_LARGE = 37,    /* 2^29 points or tets, or more */
   /* the remesher */
-  TETLOD_ERR_REMESH = 40,         /* TetGen failed on this boundary in every way that was tried */
+  TETLOD_ERR_REMESH = 40,          /* TetGen failed on this boundary in every way that was tried */
   TETLOD_ERR_BACKEND_MISSING = 41, /* tetlod-remesh not found, not executable, or of another version */
   /* the bound */
   TETLOD_ERR_MAX_ERROR = 42 /* TETLOD_OPT_MAX_ERROR cannot be held */
@@ -161,8 +161,10 @@ typedef struct tetlod_run_report {
   uint64_t hash;                 /* of the result's bytes */
   double scalar_min, scalar_max; /* of the original's values */
   int64_t inserted_points;       /* inside, after the remeshing (TETLOD_OPT_TARGET_RATIO) */
-  double max_error; /* with TETLOD_OPT_TARGET_RATIO or _MAX_ERROR: largest error at the original vertices, over the
-                       range; those outside the result count with TETLOD_OPT_MAX_ERROR alone */
+  double max_error;     /* with TETLOD_OPT_TARGET_RATIO or _MAX_ERROR: largest error at the original vertices, over the
+                           range; those outside the result count with TETLOD_OPT_MAX_ERROR alone */
+  double max_deviation; /* largest distance of a boundary vertex, of the original or of the result, from the other's
+                           boundary, over the diagonal of the bounding box */
 } tetlod_run_report;
 
 /* The field error of the last result, as the paper estimates it [4]. Errors are |result - original|, relative to the
@@ -306,10 +308,13 @@ enum {
   TETLOD_OPT_EFFORT = 21,       /* int, "effort": with a target ratio, TETLOD_EFFORT_FAST: one pass;
                                    TETLOD_EFFORT_ACCURATE, the default: then vertices inside move, faces and edges
                                    flip, and vertices are inserted, where the field gains by it */
-  TETLOD_OPT_MAX_ERROR = 22     /* real, "max-error": bound of the error at every original vertex, as a fraction of the
+  TETLOD_OPT_MAX_ERROR = 22,    /* real, "max-error": bound of the error at every original vertex, as a fraction of the
                                    values' range; one that lies outside the result is compared at the nearest point of
                                    its boundary. Begins with target-ratio (0: 0.05), and takes what it needs beyond it;
                                    0, the default: none. Where it cannot be held: TETLOD_ERR_MAX_ERROR */
+  TETLOD_OPT_MAX_DEVIATION = 23 /* real, "max-deviation": bound of the distance between the boundaries of original and
+                                   result, measured at the vertices of both, as a fraction of the diagonal; more of the
+                                   boundary is kept then than sigma or the target ratio says. 0, the default: none */
 };
 enum { TETLOD_EFFORT_FAST = 1, TETLOD_EFFORT_ACCURATE = 2 };
 enum { TETLOD_POLICY_ERROR = 0, TETLOD_POLICY_REPAIR = 1 };

@@ -29,11 +29,13 @@ struct Star {
   Array<std::int32_t> ring_id;    ///< points that are the same in the uncut surface have the same id
   Array<Vec3> old_normal;         ///< area vector of the triangle that spoke i replaces
   Array<Vec3> outer_normal;       ///< area vector of the triangle on the other side of ring edge i
-  Array<std::int32_t> old_faces;  ///< all triangles that go, also the two at the edge
+  Array<std::int32_t> old_faces;  ///< all triangles that go: the two at the edge, then those that become spokes
   Array<Vec3> normal;             ///< area vector of spoke i, made by find_spokes
   Array<Box> spoke_box;           ///< of spoke i, likewise
 
   std::size_t size() const { return ring.size(); }
+  /// The triangle that is spoke i afterwards: the first two of old_faces disappear.
+  std::int32_t spoke_face(std::size_t i) const { return old_faces[i + 2]; }
   std::size_t after(std::size_t i) const { return i + 1 == ring.size() ? 0 : i + 1; }
   void clear();
   void find_spokes();  ///< normal and spoke_box, from the rest

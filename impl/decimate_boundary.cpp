@@ -3,8 +3,10 @@
 #include <OpenMesh/Core/Mesh/TriConnectivity.hh>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "collapse_rules.hpp"
+#include "deviation.hpp"
 #include "edge_queue.hpp"
 #include "field_quadric.hpp"
 #include "half_edges.hpp"
@@ -39,6 +41,7 @@ class Decimator {
     copy_vertices(topology, locked);
     copy_connectivity(topology);
     for (std::size_t v = 0; v < point_.size(); v++) update_sums(VertexHandle(int(v)));
+    if (options.max_deviation > 0) deviation_.emplace(surface, options.max_deviation, job);
     if (options.field_weight > 0) quadrics_.find(options.field_weight, triangle_, point_, scalar_);
     build_tree();
   }
@@ -287,6 +290,7 @@ class Decimator {
     const Placement placement = place(h);
     if (breaks_topology(h) || joins_sheets(h) || !look_around(h, placement.point)) return;
     if (pinches_ring(star_) || turns_too_far(star_) || folds(star_) || makes_sliver(star_)) return;
+    if (deviation_ && deviation_->is_passed(star_)) return;
     if (crosses_surface(star_, {tree_, point_, triangle_, id_})) return;
     collapse(h, placement);
   }
@@ -308,6 +312,7 @@ class Decimator {
         queue_.remove(mesh_.edge_handle(gone).idx());
     }
     mesh_.collapse(h);
+    if (deviation_) deviation_->move_on(star_);
     edges_ -= 3;
     update_around(to);
     if (edges_ < edges_in_tree_ / 2) build_tree();
@@ -356,6 +361,7 @@ class Decimator {
   Array<std::uint8_t> locked_{&job_.memory}, touching_{&job_.memory};
   Array<Triangle> triangle_{&job_.memory};
   Array<TrianglePlane> plane_{&job_.memory};
+  std::optional<DeviationLimit> deviation_;
   FieldQuadrics quadrics_{job_.memory};  // empty: the paper's cost
   Array<VolumeSums> volume_{&job_.memory};
   Array<LinkSums> link_{&job_.memory};
@@ -380,6 +386,7 @@ DecimateReport decimate_boundary(Surface &surface, const SurfaceTopology &topolo
   report.edges_out = decimator.edges();
   Surface simplified(job.memory);
   decimator.write(simplified);
+  report.deviation = largest_deviation(surface, simplified, job);
   surface = std::move(simplified);
   return report;
 }

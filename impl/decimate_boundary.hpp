@@ -9,21 +9,23 @@
 namespace tetlod {
 
 struct DecimateOptions {
-  double sigma = 0.1;       ///< edges kept, fraction of the surface's
-  double lambda = 0.1;      ///< shape optimization weight
-  double clean_edges = 0;   ///< edges shorter than this fraction of the diagonal are collapsed first
-  double field_weight = 0;  ///< length that a unit of the field counts as; 0: the paper's cost, which does not see it
+  double sigma = 0.1;        ///< edges kept, fraction of the surface's
+  double lambda = 0.1;       ///< shape optimization weight
+  double clean_edges = 0;    ///< edges shorter than this fraction of the diagonal are collapsed first
+  double max_deviation = 0;  ///< distance between the boundaries, measured at the vertices of both; 0: no limit
+  double field_weight = 0;   ///< length that a unit of the field counts as; 0: the paper's cost, which does not see it
 };
 
 struct DecimateReport {
   std::int64_t edges_in = 0, edges_out = 0;  ///< of the cut surface
   std::int64_t cleaned_edges = 0;
+  double deviation = 0;  ///< between the surfaces, at the vertices of both
 };
 
 /// `topology` is the surface's own. Collapses edges of `surface`, lowest cost first, until at most sigma of its edges
-/// are left or no collapse is admissible. Points with locked[i] != 0 (empty: none), and points where the surface
-/// touches itself, stay. What is handed back is closed, of the same topology, and crosses itself nowhere that the input
-/// did not.
+/// are left or no collapse is admissible, that is, breaks no rule and goes no further than max_deviation. Points with
+/// locked[i] != 0 (empty: none), and points where the surface touches itself, stay. What is handed back is closed, of
+/// the same topology, and crosses itself nowhere that the input did not.
 DecimateReport decimate_boundary(Surface &surface, const SurfaceTopology &topology, Span<const std::uint8_t> locked,
                                  const DecimateOptions &options, Job &job);
 

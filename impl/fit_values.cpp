@@ -39,8 +39,7 @@ Normal normal_of(const AdaptiveMesh &mesh, std::int32_t t) {
 
 class Fit {
  public:
-  Fit(AdaptiveMesh &mesh, Job &job)
-      : mesh_(mesh), job_(job), normals_(&job.memory), pull_(pull) {
+  Fit(AdaptiveMesh &mesh, Job &job) : mesh_(mesh), job_(job), normals_(&job.memory), pull_(pull) {
     make_room();
     job.parallel.for_blocks(normals_.size(), block, [&](std::size_t begin, std::size_t end) {
       for (std::size_t t = begin; t < end; t++)

@@ -196,12 +196,13 @@ class Pipeline {
     report_.components = topology.components;
     report_.nonmanifold_edges = topology.nonmanifold_edges;
     report_.nonmanifold_points = topology.nonmanifold_points;
-    const double range = report_.scalar_max - report_.scalar_min;
-    const double weight = as_published(options_) || !(range > 0)
-                              ? 0
-                              : field_weight_of(report_) * box_of(surface.points).diagonal() / range;
-    const DecimateOptions options{sigma, options_.lambda, options_.clean_edges, weight};
-    report_.cleaned_edges = decimate_boundary(surface, topology, flags_of(surface), options, job_).cleaned_edges;
+    const double range = report_.scalar_max - report_.scalar_min, diagonal = box_of(surface.points).diagonal();
+    const double weight = as_published(options_) || !(range > 0) ? 0 : field_weight_of(report_) * diagonal / range;
+    const DecimateOptions options{sigma, options_.lambda, options_.clean_edges, options_.max_deviation * diagonal,
+                                  weight};
+    const DecimateReport decimated = decimate_boundary(surface, topology, flags_of(surface), options, job_);
+    report_.cleaned_edges = decimated.cleaned_edges;
+    report_.max_deviation = decimated.deviation / diagonal;
     refuse_crossing(surface, input_.index_base, job_);
     surface_ = std::move(surface);
     topology_ = SurfaceTopology(job_.memory);

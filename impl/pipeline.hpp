@@ -26,6 +26,7 @@ struct Options {
   double target_ratio = 0;  ///< tets kept, of the original's; 0: the paper's method, sized by rho and sigma
   std::int64_t effort = effort_accurate;  ///< of a run with a target
   double max_error = 0;                   ///< bound of the error at the original vertices, over the range; 0: none
+  double max_deviation = 0;               ///< of the boundary, over the diagonal; 0: no limit
   double rho = 0.01;
   double sigma = 0.1;
   double lambda = 0.1;
@@ -87,7 +88,8 @@ struct Report {
   double seconds_total = 0;
   std::uint64_t peak_bytes = 0, worker_peak_bytes = 0, hash = 0;
   double scalar_min = 0, scalar_max = 0;
-  double max_error = 0;  ///< of a run with a target: at the original vertices, over the range
+  double max_deviation = 0;  ///< between the boundaries, at the vertices of both, over the diagonal
+  double max_error = 0;      ///< of a run with a target: at the original vertices, over the range
 };
 
 /// A field of the result: a tuple a point or a tet.

@@ -27,6 +27,7 @@ constexpr NumberOption kNumberOptions[] = {
      "tets kept, fraction of the original's, with less error than the paper's method; 0: by rho and sigma"},
     {"effort", "with a target ratio: 1 is fast, 2 accurate"},
     {"max-error", "largest error allowed at the original vertices, fraction of the range; 0: no bound"},
+    {"max-deviation", "largest distance allowed between the boundaries, fraction of the diagonal; 0: no bound"},
     {"threads", "0: one a core, which is what the tool does; the library's own default is"},
     {"seed", "of the retries and of the error's samples"},
     {"time-limit", "seconds for the simplification, 0: none"},

@@ -34,6 +34,7 @@ void put_counts(Json &json, const tetlod_run_report &run) {
   json["samples_too_near"] = run.samples_too_near;
   json["samples"] = run.samples;
   json["steiner_points"] = run.steiner_points;
+  json["inserted_points"] = run.inserted_points;
   json["remesh_attempts"] = run.remesh_attempts;
 }
 
@@ -48,6 +49,7 @@ void put_boundary(Json &json, const tetlod_run_report &run) {
   json["components"] = run.components;
   json["nonmanifold_edges"] = run.nonmanifold_edges;
   json["nonmanifold_points"] = run.nonmanifold_points;
+  json["max_deviation"] = run.max_deviation;
 }
 
 // A number of JSON holds 53 bits for most readers, so the hash is a text.
@@ -61,6 +63,7 @@ void put_resources(Json &json, const tetlod_run_report &run) {
   json["threads"] = run.threads;
   json["peak_bytes"] = run.peak_bytes;
   json["worker_peak_bytes"] = run.worker_peak_bytes;
+  json["max_error"] = run.max_error;
   json["hash"] = hexadecimal(run.hash);
 }
 

@@ -66,6 +66,7 @@ module tetlod_types
   integer(c_int32_t), parameter, public :: TETLOD_OPT_TARGET_RATIO = 20_c_int32_t
   integer(c_int32_t), parameter, public :: TETLOD_OPT_EFFORT = 21_c_int32_t
   integer(c_int32_t), parameter, public :: TETLOD_OPT_MAX_ERROR = 22_c_int32_t
+  integer(c_int32_t), parameter, public :: TETLOD_OPT_MAX_DEVIATION = 23_c_int32_t
   integer(c_int32_t), parameter, public :: TETLOD_EFFORT_FAST = 1_c_int32_t
   integer(c_int32_t), parameter, public :: TETLOD_EFFORT_ACCURATE = 2_c_int32_t
   integer(c_int32_t), parameter, public :: TETLOD_POLICY_ERROR = 0_c_int32_t
@@ -117,6 +118,7 @@ module tetlod_types
     real(c_double) :: scalar_min = 0, scalar_max = 0
     integer(c_int64_t) :: inserted_points = 0
     real(c_double) :: max_error = 0
+    real(c_double) :: max_deviation = 0
   end type
 
   ! The field error of the last result, relative to the range of the original's values.

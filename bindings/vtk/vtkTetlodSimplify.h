@@ -107,6 +107,15 @@ class VTKTETLOD_EXPORT vtkTetlodSimplify : public vtkUnstructuredGridAlgorithm {
   void SetMaxError(double bound);
   double GetMaxError();
   ///@}
+
+  ///@{
+  /**
+   * max-deviation: bound of the distance between the boundaries, at the vertices of both, as a fraction of the
+   * diagonal; 0, the default: none.
+   */
+  void SetMaxDeviation(double fraction);
+  double GetMaxDeviation();
+  ///@}
   ///@{
   /** 0, the default of this filter: one a core. */
   void SetThreads(vtkTypeInt64 threads);

@@ -91,6 +91,16 @@ class Decimate : public testing::Test {
     expect_untouched(std::size_t(found - result.origin.begin()));
   }
 
+  /// Of the vertices of either surface from the other.
+  double brute_deviation() const {
+    double largest = 0;
+    for (const Vec3 &p : original.points)
+      largest = std::max(largest, brute_nearest(result.points, result.triangles, p).distance);
+    for (const Vec3 &p : result.points)
+      largest = std::max(largest, brute_nearest(original.points, original.triangles, p).distance);
+    return largest;
+  }
+
   bool reaches(double sigma) const { return double(report.edges_out) <= std::ceil(sigma * double(report.edges_in)); }
 };
 
@@ -123,6 +133,30 @@ TEST_F(Decimate, Edgy) {
   edgy(spiky_star(host.memory, 10), 0.05);
   const auto tunnel = [](const Cell &c) { return !(c[0] > 1 && c[0] < 6 && c[1] > 1 && c[1] < 6 && c[2] > 3); };
   edgy(surface_of(kuhn_solid({8, 8, 8}, tunnel), host.job), 0.05);
+}
+
+TEST_F(Decimate, DeviationStaysWithinItsLimit) {
+  start_with(random_blob(host.memory, 12, 7));
+  for (double field_weight : {0.0, 0.1}) {
+    DecimateOptions options{0.05, 0.1};
+    options.field_weight = field_weight;
+    std::int64_t edges = 0;
+    for (double limit : {0.0, 0.1, 0.03, 0.01}) {
+      options.max_deviation = limit;
+      decimate(options);
+      expect_sound();
+      EXPECT_NEAR(report.deviation, brute_deviation(), 1e-12);
+      EXPECT_TRUE(limit == 0 || report.deviation <= limit) << report.deviation << " beyond " << limit;
+      EXPECT_GE(report.edges_out, edges) << "a tighter limit keeps no less";
+      edges = report.edges_out;
+    }
+    EXPECT_FALSE(reaches(0.05)) << "the last limit was none";
+  }
+  start_with(box(host.memory, 8));
+  DecimateOptions flat{0.1, 0.1};
+  flat.max_deviation = 1e-12;
+  decimate(flat);
+  EXPECT_TRUE(reaches(0.5)) << "plane walls need no triangles";
 }
 
 TEST_F(Decimate, CavityAndSeveralSolids) {
