@@ -12,8 +12,9 @@ namespace {
 
 /// Kept clear of, so that another's rounding does not find the bound passed.
 constexpr double margin = 1e-3;
-/// A vertex as near as this to a face goes onto it; more and more, where a tet would be too flat otherwise.
-constexpr double snaps[] = {1e-9, 1e-6, 1e-4};
+/// A vertex as near as this to a face or an edge goes onto it, or the value across it would be another; less near,
+/// where that is not enough.
+constexpr double snaps[] = {1e-4, 1e-6, 1e-9};
 /// Flatter tets than elsewhere are taken, for the bound's sake.
 constexpr double flattest = 1e-9;
 /// Sweeps that also flip; the sweeps after them insert alone, which ends.

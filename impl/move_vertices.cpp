@@ -12,8 +12,8 @@ namespace {
 constexpr double quiet = 0.05;
 constexpr double damping = 1e-3;
 constexpr double lengths[] = {1, 0.4, 0.15};
-/// Of its error a star must not keep more.
-constexpr double least_part = 0.999;
+/// A star must not keep more of its error, and what is expected to gain less than this is not tried.
+constexpr double least_part = 0.999, least_gain = 0.005;
 
 /// x of the symmetric positive definite a x = b; false where it is not.
 bool solve_cholesky(double a[4][4], double b[4]) {
@@ -121,14 +121,18 @@ class MovedStar {
 /// Looks for the moves that pay; of the mesh as it is.
 class MoveFinder {
  public:
-  MoveFinder(double least, const AdaptiveMesh &mesh) : least_(least), mesh_(mesh) {}
+  MoveFinder(const TetsOfVertices &tets, double least, const AdaptiveMesh &mesh)
+      : tets_(tets), least_(least), mesh_(mesh) {}
 
   bool find(std::int32_t v, Move &move) const {
-    if (!mesh_.star(v, move.old)) return false;
+    move.old.clear();
+    for (std::int32_t t : tets_.of(v))
+      if (!move.old.push(t)) return false;
     double old_error = 0;
     for (std::int32_t t : move.old) old_error += mesh_.error[std::size_t(t)];
     Step step;
     if (!(old_error > least_) || !gauss_newton(v, move.old, step)) return false;
+    if (!(step.gain > least_gain * old_error)) return false;
     move.vertex = v;
     for (double length : lengths) {
       move.point = mesh_.points[std::size_t(v)] + length * Vec3(step.by[0], step.by[1], step.by[2]);
@@ -142,6 +146,7 @@ class MoveFinder {
  private:
   struct Step {
     double by[4] = {};
+    double gain = 0;   ///< to expect
     double low, high;  ///< of the values around
   };
 
@@ -177,13 +182,17 @@ class MoveFinder {
     if (!(a[3][3] > 0)) return false;
     for (int m = 0; m < 3; m++) a[m][m] += damping * a[3][3] * std::max(change2, 1e-300) / size2;
     a[3][3] *= 1 + damping;
+    const double down[4] = {step.by[0], step.by[1], step.by[2], step.by[3]};
     if (!solve_cholesky(a, step.by)) return false;
+    step.gain = 0;
+    for (int m = 0; m < 4; m++) step.gain += down[m] * step.by[m];
     const double far2 = (step.by[0] * step.by[0] + step.by[1] * step.by[1] + step.by[2] * step.by[2]) / (0.25 * size2);
     if (far2 > 1)
       for (double &by : step.by) by /= std::sqrt(far2);
     return true;
   }
 
+  const TetsOfVertices &tets_;
   double least_;
   const AdaptiveMesh &mesh_;
 };
@@ -206,8 +215,9 @@ std::int64_t move_vertices(std::size_t first, Job &job, AdaptiveMesh &mesh) {
   Array<std::int32_t> items(&job.memory);
   for (std::size_t v = first; v < mesh.points.size(); v++)
     if (!mesh.fixed[v] && !mesh.kept[v] && mesh.tet_of[v] >= 0) items.push_back(std::int32_t(v));
-  const MoveFinder finder(quiet * 4 * mesh.total_error() / double(mesh.points.size()), mesh);
-  const Array<std::size_t> batches = batches_apart(mesh, items);
+  const TetsOfVertices tets(mesh);  // which stay: vertices move, nothing else
+  const Array<std::size_t> batches = batches_apart(mesh, tets, items);
+  const MoveFinder finder(tets, quiet * 4 * mesh.total_error() / double(mesh.points.size()), mesh);
   return sweep<Move>(
       items, batches, job, mesh, [&](std::int32_t v, Move &move) { return finder.find(v, move); },
       [&](const Move &move) { make_move(move, mesh); });

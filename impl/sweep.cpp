@@ -6,34 +6,23 @@ namespace {
 
 constexpr std::size_t largest_batch = 256;
 
-/// The tets of every vertex, those of v from first[v] to first[v + 1].
-struct TetsOfVertices {
-  explicit TetsOfVertices(const AdaptiveMesh &mesh)
-      : first(mesh.points.size() + 1, 0, &mesh.memory()), tets(&mesh.memory()) {
-    for_each_use(mesh, [&](std::int32_t, std::int32_t v) { first[std::size_t(v) + 1]++; });
-    for (std::size_t v = 0; v + 1 < first.size(); v++) first[v + 1] += first[v];
-    tets.resize(first.back());
-    Array<std::uint32_t> place(first.begin(), first.end(), &mesh.memory());
-    for_each_use(mesh, [&](std::int32_t t, std::int32_t v) { tets[place[std::size_t(v)]++] = t; });
-  }
-  Span<const std::int32_t> of(std::int32_t v) const {
-    const std::uint32_t begin = first[std::size_t(v)];
-    return {tets.data() + begin, first[std::size_t(v) + 1] - begin};
-  }
-
-  Array<std::uint32_t> first;
-  Array<std::int32_t> tets;
-
- private:
-  template <class Visit>
-  static void for_each_use(const AdaptiveMesh &mesh, const Visit &visit) {
-    for (std::size_t t = 0; t < mesh.tets.size(); t++)
-      if (mesh.alive(std::int32_t(t)))
-        for (std::int32_t v : mesh.tets[t]) visit(std::int32_t(t), v);
-  }
-};
+template <class Visit>
+void for_each_use(const AdaptiveMesh &mesh, const Visit &visit) {
+  for (std::size_t t = 0; t < mesh.tets.size(); t++)
+    if (mesh.alive(std::int32_t(t)))
+      for (std::int32_t v : mesh.tets[t]) visit(std::int32_t(t), v);
+}
 
 }  // namespace
+
+TetsOfVertices::TetsOfVertices(const AdaptiveMesh &mesh)
+    : first_(mesh.points.size() + 1, 0, &mesh.memory()), tets_(&mesh.memory()) {
+  for_each_use(mesh, [&](std::int32_t, std::int32_t v) { first_[std::size_t(v) + 1]++; });
+  for (std::size_t v = 0; v + 1 < first_.size(); v++) first_[v + 1] += first_[v];
+  tets_.resize(first_.back());
+  Array<std::uint32_t> place(first_.begin(), first_.end(), &mesh.memory());
+  for_each_use(mesh, [&](std::int32_t t, std::int32_t v) { tets_[place[std::size_t(v)]++] = t; });
+}
 
 Array<std::size_t> batches_of(std::size_t count, std::size_t batch, Memory &memory) {
   Array<std::size_t> ends(&memory);
@@ -42,8 +31,7 @@ Array<std::size_t> batches_of(std::size_t count, std::size_t batch, Memory &memo
   return ends;
 }
 
-Array<std::size_t> batches_apart(const AdaptiveMesh &mesh, Array<std::int32_t> &vertices) {
-  const TetsOfVertices tets(mesh);
+Array<std::size_t> batches_apart(const AdaptiveMesh &mesh, const TetsOfVertices &tets, Array<std::int32_t> &vertices) {
   std::sort(vertices.begin(), vertices.end(), [&](std::int32_t a, std::int32_t b) {
     const std::int32_t s = tets.of(a)[0], t = tets.of(b)[0];
     return s != t ? s < t : a < b;

@@ -43,7 +43,21 @@ std::int64_t sweep(Span<const std::int32_t> items, Span<const std::size_t> ends,
 /// Batches of so many items.
 Array<std::size_t> batches_of(std::size_t count, std::size_t batch, Memory &memory);
 
-/// Orders inner vertices into batches in which no two share a tet.
-Array<std::size_t> batches_apart(const AdaptiveMesh &mesh, Array<std::int32_t> &vertices);
+/// The tets of every vertex, as they are when it is made.
+class TetsOfVertices {
+ public:
+  explicit TetsOfVertices(const AdaptiveMesh &mesh);
+  Span<const std::int32_t> of(std::int32_t v) const {
+    const std::uint32_t begin = first_[std::size_t(v)];
+    return {tets_.data() + begin, first_[std::size_t(v) + 1] - begin};
+  }
+
+ private:
+  Array<std::uint32_t> first_;  // of each vertex, and the end
+  Array<std::int32_t> tets_;
+};
+
+/// Orders inner vertices into batches in which no two share a tet, each along the tets.
+Array<std::size_t> batches_apart(const AdaptiveMesh &mesh, const TetsOfVertices &tets, Array<std::int32_t> &vertices);
 
 }  // namespace tetlod
