@@ -305,9 +305,10 @@ enum {
                                    boundary is decimated with a cost that sees the field, samples are taken where a
                                    linear field would be wrong, values are fitted to all original values, and rho,
                                    sigma, lambda and min-distance have no meaning; 0, the default: as published */
-  TETLOD_OPT_EFFORT = 21,       /* int, "effort": with a target ratio, TETLOD_EFFORT_FAST: one pass;
-                                   TETLOD_EFFORT_ACCURATE, the default: then vertices inside move, faces and edges
-                                   flip, and vertices are inserted, where the field gains by it */
+  TETLOD_OPT_EFFORT = 21,       /* int, "effort": with a target ratio, vertices inside move and faces and
+                                   edges flip where the field gains by it: TETLOD_EFFORT_FAST: in one pass;
+                                   TETLOD_EFFORT_ACCURATE, the default: in four more, which also remove and insert
+                                   vertices */
   TETLOD_OPT_MAX_ERROR = 22,    /* real, "max-error": bound of the error at every original vertex, as a fraction of the
                                    values' range; one that lies outside the result is compared at the nearest point of
                                    its boundary. Begins with target-ratio (0: 0.05), and takes what it needs beyond it;

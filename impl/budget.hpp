@@ -15,6 +15,9 @@ constexpr double first_ratio = 0.05;
 
 inline double ratio_of(const Options &options) { return options.target_ratio > 0 ? options.target_ratio : first_ratio; }
 
+/// Rounds of refine(), after the pass that every run with a target has.
+inline int rounds_of(const Options &options) { return options.effort == effort_accurate ? 4 : 0; }
+
 /// What a target size is spent on.
 struct Budget {
   std::int64_t tets = 0;

@@ -17,7 +17,6 @@ namespace {
 /// What a tet must gain to be worth it, in mean errors of a tet; and where a vertex goes that was worth its tets once.
 constexpr double price_of_tet = 1.33, price_of_vertex = 0.5;
 constexpr int fit_steps = 8, last_fit_steps = 20;
-constexpr int rounds = 4;
 /// Probes for each tet that there shall be.
 constexpr double vertices_a_tet = 8, inner_a_tet = 8;
 
@@ -37,7 +36,7 @@ class Refinement {
 
   RefineReport run() {
     place_probes(original_, enough_probes(), job_, mesh_);
-    if (options_.follow_field) follow_field();
+    follow_field();
     insert(options_.tets - std::int64_t(mesh_.count()));
     fit_values(last_fit_steps, job_, mesh_);
     place_probes(original_, every_vertex(), job_, mesh_);
@@ -70,11 +69,12 @@ class Refinement {
     move(0);
     flip();
     move(0);
-    for (int round = 0; round < rounds; round++) {
+    for (int round = 0; round < options_.rounds; round++) {
       fit_values(fit_steps, job_, mesh_);
-      if (round + 1 < rounds) remove();
+      const bool last = round + 1 == options_.rounds;
+      if (!last) remove();
       const std::size_t first = mesh_.points.size();
-      insert((options_.tets - std::int64_t(mesh_.count())) / (round + 1 < rounds ? 2 : 1));
+      insert((options_.tets - std::int64_t(mesh_.count())) / (last ? 1 : 2));
       move(first);
       flip();
       move(0);
