@@ -36,7 +36,7 @@ void AdaptiveMesh::connect(Job &job) {
   find_touching();
 }
 
-/// Vertices that have tets beyond those that their faces lead to.
+/// Vertices that have tets beyond those that their faces lead to, and the ends of edges that do.
 void AdaptiveMesh::find_touching() {
   Array<std::int32_t> count(points.size(), 0, &memory_), around(&memory_);
   for (const Tet &t : tets)
@@ -46,6 +46,17 @@ void AdaptiveMesh::find_touching() {
     star(std::int32_t(v), around);
     if (std::int32_t(around.size()) != count[v]) fixed[v] = touching;
   }
+  Array<std::pair<std::int32_t, std::int32_t>> edges(&memory_);  // of the boundary's triangles
+  for (std::size_t t = 0; t < tets.size(); t++)
+    for (int k = 0; k < 4; k++) {
+      if (neighbours[t][std::size_t(k)] >= 0) continue;
+      const Triangle f = sorted_face(tets[t], k);
+      for (const auto &[a, b] : {std::pair(f[0], f[1]), std::pair(f[0], f[2]), std::pair(f[1], f[2])})
+        edges.push_back({a, b});
+    }
+  std::sort(edges.begin(), edges.end());
+  for (std::size_t i = 2; i < edges.size(); i++)
+    if (edges[i] == edges[i - 2]) fixed[std::size_t(edges[i].first)] = fixed[std::size_t(edges[i].second)] = touching;
 }
 
 void AdaptiveMesh::measure(std::int32_t t) {
