@@ -33,6 +33,31 @@ Context make_context(const Parameters &parameters) {
   return context;
 }
 
+// The library says by its progress callback when a stage begins.
+class StageClock {
+ public:
+  static std::int32_t tick(void *clock, std::int32_t stage, double) {
+    static_cast<StageClock *>(clock)->enter(std::size_t(stage));
+    return 0;
+  }
+  StageSeconds end() {
+    enter(stage_);
+    return seconds_;
+  }
+
+ private:
+  void enter(std::size_t stage) {
+    const double now = cpu_seconds_of(RUSAGE_SELF);
+    seconds_[stage_] += now - last_;
+    last_ = now;
+    stage_ = stage;
+  }
+
+  StageSeconds seconds_{};
+  std::size_t stage_ = 0;
+  double last_ = cpu_seconds_of(RUSAGE_SELF);
+};
+
 // The library reads what it is lent and writes nothing there.
 tetlod_array lent(std::int32_t type, std::size_t tuples, std::int32_t components, const void *data) {
   tetlod_array array{};
@@ -96,16 +121,21 @@ TetlodRun run_tetlod(const Mesh &mesh, const Parameters &parameters) {
   const Stopwatch watch;
   Context context = make_context(parameters);
   submit(context.get(), mesh);
+  StageClock clock;
+  check(tetlod_set_progress(context.get(), StageClock::tick, &clock), context.get());
+  const double worker_begin = cpu_seconds_of(RUSAGE_CHILDREN);
   check(tetlod_run(context.get()), context.get());
+  run.stage_cpu = clock.end();
   const Views views = view(context.get());
   run.cost = watch.cost();
   run.report.struct_size = sizeof run.report;
   check(tetlod_fetch_report(context.get(), &run.report), context.get());
   run.result = {copied<Point>(views.points), copied<Tet>(views.tets), copied<double>(views.values)};
   run.boundary = fetch_boundary(context.get());
-  const Stopwatch ending;  // the worker's seconds count once it is waited for
+  const Stopwatch ending;  // the worker's seconds come to light once it is waited for
   context.reset();
   run.cost.cpu += ending.cost().cpu;
+  run.stage_cpu[kRemeshStage] += cpu_seconds_of(RUSAGE_CHILDREN) - worker_begin;
   return run;
 }
 

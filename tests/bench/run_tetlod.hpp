@@ -17,8 +17,15 @@ struct Parameters {
 // "paper", "fast" or "accurate".
 const char *preset_name(std::int32_t preset);
 
+constexpr std::size_t kStages = 7;
+constexpr std::size_t kRemeshStage = 5;
+
+// Of the processors, for each stage that tetlod_stage_name names; the worker's are remeshing's.
+using StageSeconds = std::array<double, kStages>;
+
 struct TetlodRun {
   Cost cost;  // from tetlod_create to the views of the result, and tetlod_destroy's share of the processors
+  StageSeconds stage_cpu;
   tetlod_run_report report;
   Mesh result;
   std::vector<std::array<std::int32_t, 3>> boundary;  // of the result

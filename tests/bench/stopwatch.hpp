@@ -13,6 +13,13 @@ struct Cost {
   double wall = 0, cpu = 0;
 };
 
+inline double cpu_seconds_of(int who) {
+  const auto seconds = [](const timeval &t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); };
+  rusage usage{};
+  getrusage(who, &usage);
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
 class Stopwatch {
  public:
   Cost cost() const {
@@ -20,13 +27,7 @@ class Stopwatch {
   }
 
  private:
-  static double seconds(const timeval &t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); }
-  static double cpu_of(int who) {
-    rusage usage{};
-    getrusage(who, &usage);
-    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-  }
-  static double cpu_now() { return cpu_of(RUSAGE_SELF) + cpu_of(RUSAGE_CHILDREN); }
+  static double cpu_now() { return cpu_seconds_of(RUSAGE_SELF) + cpu_seconds_of(RUSAGE_CHILDREN); }
 
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   double cpu_begin_ = cpu_now();

@@ -63,6 +63,14 @@ tetlod_run_report report_of(const std::vector<TetlodRun> &runs) {
   return report;
 }
 
+StageSeconds stages_of(const std::vector<TetlodRun> &runs) {
+  StageSeconds medians{};
+  for (std::size_t stage = 0; stage < kStages; stage++) {
+    medians[stage] = spread_of(runs, [stage](const TetlodRun &run) { return run.stage_cpu[stage]; }).median;
+  }
+  return medians;
+}
+
 }  // namespace
 
 Contest hold_contest(const std::string &name, const Mesh &mesh, const Parameters &parameters, int rounds,
@@ -76,6 +84,7 @@ Contest hold_contest(const std::string &name, const Mesh &mesh, const Parameters
   contest.rounds = rounds;
   contest.tetlod = side_of(mesh, all.ours, false);
   contest.report = report_of(all.ours);
+  contest.stage_cpu = stages_of(all.ours);
   if (!with_peer) return contest;
   contest.peer = side_of(mesh, all.theirs, true);
   contest.wall_speedup = speedup_of(all, &Cost::wall);

@@ -26,6 +26,7 @@ struct Contest {
   Side tetlod;
   std::optional<Side> peer;          // none: the mesh is beyond the size at which the peer is waited for
   Spread wall_speedup, cpu_speedup;  // the peer's seconds over tetlod's of the same round
+  StageSeconds stage_cpu;            // medians
   tetlod_run_report report;          // counts of the last round, seconds of each stage the medians
 };
 

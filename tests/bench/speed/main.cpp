@@ -3,6 +3,7 @@
 //
 // Nothing here is compared with stored seconds: machines differ. What is compared takes turns in one run.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
 #include <limits>
 
@@ -22,7 +23,7 @@ struct Arguments {
   std::vector<double> targets{0.1, 0.02};
   bench::GrowthOptions growth;
   double growth_target = 0.01;
-  bool no_growth = false, no_stages = false;
+  std::vector<std::string> parts{"real", "generated", "stages", "growth"};
   int rounds = 3;
   std::vector<std::int64_t> threads{1, 2};
   double ratio_limit = std::numeric_limits<double>::infinity();
@@ -41,8 +42,10 @@ void add_options(CLI::App &app, Arguments &a) {
   app.add_option("--growth-target", a.growth_target, "part of the tets kept there")->check(part)->capture_default_str();
   app.add_option("--peer-limit", a.growth.peer_limit, "tets beyond which growth goes without the peer")
       ->capture_default_str();
-  app.add_flag("--no-growth", a.no_growth, "no growth table");
-  app.add_flag("--no-stages", a.no_stages, "no duels about stages and floors");
+  app.add_option("--parts", a.parts, "the real mesh, the generated one, duels about stages and floors, growth")
+      ->check(CLI::IsMember({"real", "generated", "stages", "growth"}))
+      ->delimiter(',')
+      ->capture_default_str();
   app.add_option("--rounds", a.rounds, "of which medians are taken")->check(CLI::Range(1, 1000))->capture_default_str();
   app.add_option("--threads", a.threads, "of tetlod, in turn; 0: one a core; the peer has one")
       ->check(CLI::Range(0, 1024))
@@ -77,10 +80,10 @@ class Bench {
 
   void run() {
     bench::print_head(stdout);
-    real_mesh();
-    generated_mesh();
+    if (wants("real")) real_mesh();
+    if (wants("generated")) generated_mesh();
     bench::print_speeds(stdout, contests_, duels_);
-    if (!a_.no_growth && !a_.growth.tets.empty()) grow();
+    if (wants("growth") && !a_.growth.tets.empty()) grow();
     if (!a_.json.empty()) bench::write_json(a_.json, contests_, duels_, growth_);
   }
 
@@ -98,6 +101,8 @@ class Bench {
   }
 
  private:
+  bool wants(const char *part) const { return std::find(a_.parts.begin(), a_.parts.end(), part) != a_.parts.end(); }
+
   void contest(const std::string &name, const bench::Mesh &mesh, const bench::Parameters &parameters) {
     contests_.push_back(bench::hold_contest(name, mesh, parameters, a_.rounds, true));
     bench::print_contest(stdout, contests_.back());
@@ -127,7 +132,7 @@ class Bench {
   }
 
   void duels_about(const std::string &name, const bench::Mesh &mesh, const std::vector<double> &targets) {
-    if (a_.no_stages) return;
+    if (!wants("stages")) return;
     const std::int64_t threads = a_.threads.back();
     add(bench::hold_boundary_duels(name, mesh, kBoundaryKept, threads, a_.rounds));
     add(bench::hold_kd_tree_duels(name, mesh, a_.rounds));

@@ -76,14 +76,15 @@ void print_counts(std::FILE *to, const tetlod_run_report &run) {
   row(to, "final vertices", grouped(run.points_out));
 }
 
-void print_stages(std::FILE *to, const tetlod_run_report &run) {
-  row(to, "seconds: preparing", fixed(run.seconds_prepare, 3));
-  row(to, "  extracting boundary", fixed(run.seconds_boundary, 3));
-  row(to, "  simplifying boundary", fixed(run.seconds_decimate, 3));
-  row(to, "  sampling points", fixed(run.seconds_sample, 3));
-  row(to, "  removing samples", fixed(run.seconds_cull, 3));
-  row(to, "  CDT", fixed(run.seconds_remesh, 3));
-  row(to, "  values of Steiner points", fixed(run.seconds_values, 3));
+void print_stages(std::FILE *to, const Contest &c) {
+  const tetlod_run_report &run = c.report;
+  const double wall[kStages] = {run.seconds_prepare, run.seconds_boundary, run.seconds_decimate, run.seconds_sample,
+                                run.seconds_cull,    run.seconds_remesh,   run.seconds_values};
+  row(to, "seconds of stages", "CPU", "wall");
+  for (std::size_t stage = 0; stage < kStages; stage++) {
+    row(to, std::string("  ") + tetlod_stage_name(std::int32_t(stage)), fixed(c.stage_cpu[stage], 3),
+        fixed(wall[stage], 3));
+  }
 }
 
 void print_memory(std::FILE *to, const Contest &c) {
@@ -139,7 +140,7 @@ void print_contest(std::FILE *to, const Contest &c) {
   print_seconds(to, c);
   print_errors(to, c);
   print_counts(to, c.report);
-  print_stages(to, c.report);
+  print_stages(to, c);
   print_memory(to, c);
   std::fflush(to);
 }

@@ -68,6 +68,7 @@ Json json_of(const Contest &contest) {
                {"rounds", contest.rounds},
                {"tetlod", json_of(contest.tetlod)},
                {"seconds", stages_of(contest.report)},
+               {"stage_cpu", contest.stage_cpu},
                {"counts", counts_of(contest.report)},
                {"bytes_in_all", bytes_in_all(contest)}};
   if (!contest.peer) return json;
