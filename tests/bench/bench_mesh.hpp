@@ -12,6 +12,7 @@ namespace bench {
 
 using Point = std::array<double, 3>;
 using Tet = std::array<std::int32_t, 4>;
+using Triangle = std::array<std::int32_t, 3>;
 
 struct Mesh {
   std::vector<Point> points;

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "box_tree.hpp"
+#include "nearest_triangle.hpp"
 #include "vectors.hpp"
 
 namespace bench {
@@ -114,14 +115,25 @@ Weights random_weights(std::size_t tet) {
   return weights;
 }
 
+double error_outside(const Mesh &original, std::size_t vertex, const Mesh &result, const NearestTriangle &surface) {
+  const NearestPoint at = surface.nearest(original.points[vertex]);
+  double value = 0;
+  for (std::size_t k = 0; k < 3; k++) value += at.weights[k] * result.values[std::size_t(at.triangle[k])];
+  return std::fabs(value - original.values[vertex]);
+}
+
 }  // namespace
 
-FieldError measure_field_error(const Mesh &original, const Mesh &result) {
+FieldError measure_field_error(const Mesh &original, const Mesh &result, const std::vector<Triangle> &boundary) {
   const Finder finder(result);
+  const NearestTriangle surface(result.points, boundary);
   const double range = range_of(original.values);
   Sum vertices, inner;
+  double most_outside = 0;
   for (std::size_t i = 0; i < original.points.size(); i++) {
-    vertices.add(original.values[i], finder.value_at(original.points[i]));
+    const std::optional<double> found = finder.value_at(original.points[i]);
+    vertices.add(original.values[i], found);
+    if (!found) most_outside = std::max(most_outside, error_outside(original, i, result, surface));
   }
   for (std::size_t t = 0; t < original.tets.size(); t++) {
     const Weights weights = random_weights(t);
@@ -134,8 +146,10 @@ FieldError measure_field_error(const Mesh &original, const Mesh &result) {
     }
     inner.add(value, finder.value_at(p));
   }
-  return {vertices.rms() / range, vertices.most / range, vertices.share_outside(),
-          inner.rms() / range,    inner.most / range,    inner.share_outside()};
+  return {vertices.rms() / range,   vertices.most / range,
+          vertices.share_outside(), std::max(vertices.most, most_outside) / range,
+          inner.rms() / range,      inner.most / range,
+          inner.share_outside()};
 }
 
 }  // namespace bench

@@ -10,9 +10,11 @@ namespace bench {
 // Errors as fractions of the range of the original's values; points outside the result are counted and left out.
 struct FieldError {
   double rms, max, outside;                    // at the original's vertices
+  double max_everywhere;                       // there, those outside compared at the nearest point of the boundary
   double rms_inner, max_inner, outside_inner;  // at a random point in each of the original's tets, always the same
 };
 
-FieldError measure_field_error(const Mesh &original, const Mesh &result);
+// `boundary`: the result's.
+FieldError measure_field_error(const Mesh &original, const Mesh &result, const std::vector<Triangle> &boundary);
 
 }  // namespace bench

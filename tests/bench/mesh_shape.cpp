@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "box_tree.hpp"
+#include "nearest_triangle.hpp"
 #include "vectors.hpp"
 
 namespace bench {
@@ -53,80 +53,19 @@ std::int64_t count_nonmanifold_edges(const std::vector<Triangle> &boundary) {
 
 // ---- Distances ----
 
-double distance2_to_segment(const Point &p, const Point &a, const Point &b) {
-  const Point ab = minus(b, a), ap = minus(p, a);
-  const double length2 = dot(ab, ab);
-  const double along = length2 > 0 ? std::clamp(dot(ap, ab) / length2, 0.0, 1.0) : 0.0;
-  const Point off{ap[0] - along * ab[0], ap[1] - along * ab[1], ap[2] - along * ab[2]};
-  return dot(off, off);
-}
-
-double distance2_to_triangle(const Point &p, const Point &a, const Point &b, const Point &c) {
-  const Point normal = cross(minus(b, a), minus(c, a));
-  const double area2 = dot(normal, normal);
-  const auto left_of = [&](const Point &s, const Point &t) { return triple(minus(t, s), minus(p, s), normal) >= 0; };
-  if (area2 > 0 && left_of(a, b) && left_of(b, c) && left_of(c, a)) {
-    const double off = dot(minus(p, a), normal);
-    return off * off / area2;
-  }
-  return std::min({distance2_to_segment(p, a, b), distance2_to_segment(p, b, c), distance2_to_segment(p, c, a)});
-}
-
-class NearestTriangle {
- public:
-  NearestTriangle(const Mesh &mesh, const std::vector<Triangle> &triangles)
-      : mesh_(mesh), triangles_(triangles), tree_(boxes(mesh, triangles)) {}
-
-  double distance(const Point &p) const {
-    double best = Box::kInfinity;
-    if (!tree_.nodes().empty()) search(0, p, best);
-    return std::sqrt(best);
-  }
-
- private:
-  static std::vector<Box> boxes(const Mesh &mesh, const std::vector<Triangle> &triangles) {
-    std::vector<Box> made;
-    for (const Triangle &t : triangles) made.push_back(box_of(mesh.points, t));
-    return made;
-  }
-
-  double distance2_to(const Triangle &t, const Point &p) const {
-    return distance2_to_triangle(p, mesh_.points[std::size_t(t[0])], mesh_.points[std::size_t(t[1])],
-                                 mesh_.points[std::size_t(t[2])]);
-  }
-
-  void search(std::size_t at, const Point &p, double &best) const {
-    const BoxTree::Node &node = tree_.nodes()[at];
-    if (node.box.distance2(p) >= best) return;
-    if (node.right == 0) {
-      for (std::size_t i = node.begin; i < node.end; i++) {
-        best = std::min(best, distance2_to(triangles_[tree_.order()[i]], p));
-      }
-      return;
-    }
-    const auto off = [&](std::size_t child) { return tree_.nodes()[child].box.distance2(p); };
-    const bool right_first = off(node.right) < off(at + 1);
-    search(right_first ? node.right : at + 1, p, best);
-    search(right_first ? at + 1 : node.right, p, best);
-  }
-
-  const Mesh &mesh_;
-  const std::vector<Triangle> &triangles_;
-  BoxTree tree_;
-};
-
 double farthest(const Mesh &from, const std::vector<Triangle> &boundary, const NearestTriangle &to) {
   std::vector<bool> seen(from.points.size(), false);
   double most = 0;
+  const auto to_surface = [&to](const Point &p) { return std::sqrt(to.nearest(p).distance2); };
   for (const Triangle &t : boundary) {
     Point centroid{};
     for (const std::int32_t corner : t) {
       const Point &p = from.points[std::size_t(corner)];
       for (std::size_t a = 0; a < 3; a++) centroid[a] += p[a] / 3;
-      if (!seen[std::size_t(corner)]) most = std::max(most, to.distance(p));
+      if (!seen[std::size_t(corner)]) most = std::max(most, to_surface(p));
       seen[std::size_t(corner)] = true;
     }
-    most = std::max(most, to.distance(centroid));
+    most = std::max(most, to_surface(centroid));
   }
   return most;
 }
@@ -153,7 +92,8 @@ bool is_valid(const Shape &original, const Shape &result) {
 }
 
 double hausdorff(const Mesh &original, const Shape &original_shape, const Mesh &result, const Shape &result_shape) {
-  const NearestTriangle to_original(original, original_shape.boundary), to_result(result, result_shape.boundary);
+  const NearestTriangle to_original(original.points, original_shape.boundary),
+      to_result(result.points, result_shape.boundary);
   const double there = farthest(original, original_shape.boundary, to_result);
   const double back = farthest(result, result_shape.boundary, to_original);
   return std::max(there, back) / box_of(original.points).diagonal();

@@ -7,8 +7,6 @@
 
 namespace bench {
 
-using Triangle = std::array<std::int32_t, 3>;
-
 struct Shape {
   std::vector<Triangle> boundary;  // faces used once
   double volume;                   // of the tets, absolute

@@ -28,6 +28,7 @@ Context make_context(const Parameters &parameters) {
     check(tetlod_set_sigma(made, parameters.sigma), made);
   } else {
     check(tetlod_set_real(made, TETLOD_OPT_TARGET_RATIO, parameters.target), made);
+    check(tetlod_set_real(made, TETLOD_OPT_MAX_ERROR, parameters.max_error), made);
   }
   check(tetlod_set_int(made, TETLOD_OPT_THREADS, parameters.threads), made);
   return context;
@@ -97,10 +98,10 @@ std::vector<T> copied(const tetlod_array &array) {
   return std::vector<T>(begin, begin + array.tuples);
 }
 
-std::vector<std::array<std::int32_t, 3>> fetch_boundary(tetlod_context *context) {
+std::vector<Triangle> fetch_boundary(tetlod_context *context) {
   std::int64_t triangles = 0;
   check(tetlod_fetch_counts(context, nullptr, nullptr, &triangles), context);
-  std::vector<std::array<std::int32_t, 3>> boundary(static_cast<std::size_t>(triangles));
+  std::vector<Triangle> boundary(static_cast<std::size_t>(triangles));
   tetlod_array array = lent(TETLOD_INT32, boundary.size(), 3, boundary.data());
   check(tetlod_fetch_boundary(context, 0, &array), context);
   return boundary;

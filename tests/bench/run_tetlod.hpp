@@ -11,6 +11,7 @@ struct Parameters {
   std::int32_t preset = TETLOD_PRESET_PAPER;
   double rho = 0.01, sigma = 0.1;  // of the preset paper
   double target = 0.1;             // part of the tets that the other presets keep
+  double max_error = 0;            // TETLOD_OPT_MAX_ERROR of the other presets
   std::int64_t threads = 1;
 };
 
@@ -28,7 +29,7 @@ struct TetlodRun {
   StageSeconds stage_cpu;
   tetlod_run_report report;
   Mesh result;
-  std::vector<std::array<std::int32_t, 3>> boundary;  // of the result
+  std::vector<Triangle> boundary;  // of the result
 };
 
 // Throws std::runtime_error with the library's message.

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "draw_plot.hpp"
+#include "promises.hpp"
 #include "sweep_file.hpp"
 #include "write_table.hpp"
 
@@ -15,6 +16,8 @@ struct Arguments {
   std::vector<std::string> sets{"bluntfin", "comb", "spx", "disk_out_ref", "fire", "lv_active"};
   bench::SweepOptions sweep;
   std::string out = "out/accuracy", from;
+  bool promises = false;
+  bench::PromiseOptions promise;
 };
 
 void add_options(CLI::App &app, Arguments &a) {
@@ -33,6 +36,9 @@ void add_options(CLI::App &app, Arguments &a) {
   app.add_option("--judge", a.sweep.judge, "a program that is asked about the same results")
       ->envname("TETLOD_JUDGE")
       ->type_name("PROGRAM");
+  app.add_flag("--promises", a.promises, "instead: are bounds of the error held and sizes met?");
+  app.add_option("--bounds", a.promise.bounds, "of the error, parts of the range")->delimiter(',');
+  app.add_option("--targets", a.promise.targets, "of the size, parts of the tets")->delimiter(',');
   app.add_option("--from", a.from, "measures nothing: table and plot of an earlier run's JSON")->type_name("FILE");
 }
 
@@ -56,18 +62,40 @@ void write_all(const Arguments &a, const std::vector<bench::Sweep> &sweeps) {
   bench::draw_plot(a.out + ".svg", sweeps);
 }
 
+// visit(name, mesh) for every set that is there.
+template <class Visit>
+void for_sets(const Arguments &a, const Visit &visit) {
+  for (const std::string &set : a.sets) {
+    if (const std::optional<std::string> path = path_of(set)) {
+      visit(fs::path(set).stem().string(), bench::read_mesh(*path));
+    } else {
+      std::printf("%s: skipped, there is no such set in TETLOD_DATA_DIR or in ../shared/data\n", set.c_str());
+    }
+  }
+}
+
 std::vector<bench::Sweep> measure(const Arguments &a) {
   std::vector<bench::Sweep> sweeps;
-  for (const std::string &set : a.sets) {
-    const std::optional<std::string> path = path_of(set);
-    if (!path) {
-      std::printf("%s: skipped, there is no such set in TETLOD_DATA_DIR or in ../shared/data\n", set.c_str());
-      continue;
-    }
-    sweeps.push_back(bench::sweep_set(fs::path(set).stem().string(), bench::read_mesh(*path), a.sweep));
+  for_sets(a, [&](const std::string &name, const bench::Mesh &mesh) {
+    sweeps.push_back(bench::sweep_set(name, mesh, a.sweep));
     write_all(a, sweeps);
-  }
+  });
   return sweeps;
+}
+
+// Fails when one is not kept.
+int check_promises(const Arguments &a) {
+  bool all_kept = true;
+  bench::PromiseOptions options = a.promise;
+  options.threads = a.sweep.threads;
+  bench::write_promise_head(stdout);
+  for_sets(a, [&](const std::string &name, const bench::Mesh &mesh) {
+    for (const bench::Promise &promise : bench::measure_promises(mesh, options)) {
+      bench::write_promise(stdout, name, promise);
+      all_kept = all_kept && promise.is_kept;
+    }
+  });
+  return all_kept ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 
 void run(const Arguments &a) {
@@ -88,6 +116,7 @@ int main(int argc, char **argv) {
   add_options(app, arguments);
   CLI11_PARSE(app, argc, argv);
   try {
+    if (arguments.promises) return check_promises(arguments);
     run(arguments);
     return EXIT_SUCCESS;
   } catch (const std::exception &error) {

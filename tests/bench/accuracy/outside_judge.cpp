@@ -81,7 +81,9 @@ Quality ask_judge(const std::string &program, const Mesh &original, const Mesh &
   try {
     const nlohmann::json json = nlohmann::json::parse(said);
     const auto at = [&json](const char *name) { return json.at(name).get<double>(); };
-    const FieldError field{at("rms"), at("max"), at("outside"), at("rms_inner"), at("max_all"), at("outside_inner")};
+    // max_all is that of vertices and samples together: there is no other figure for the two that it stands for.
+    const FieldError field{at("rms"),       at("max"),     at("outside"),      at("max_all"),
+                           at("rms_inner"), at("max_all"), at("outside_inner")};
     return {field, at("hausdorff"), at("volume"), json.at("valid").get<bool>()};
   } catch (const nlohmann::json::exception &error) {
     throw std::runtime_error(program + ": " + error.what());

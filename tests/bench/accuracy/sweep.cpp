@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "find_rho.hpp"
-#include "mesh_shape.hpp"
 #include "outside_judge.hpp"
 #include "run_peer.hpp"
 
@@ -22,16 +21,10 @@ struct Original {
   const std::string &judge;
 };
 
-Quality measure_quality(const Original &original, const Mesh &result) {
-  const Shape shape = shape_of(result);
-  return {measure_field_error(original.mesh, result), hausdorff(original.mesh, original.shape, result, shape),
-          shape.volume / original.shape.volume, is_valid(original.shape, shape)};
-}
-
 // Of one result: the median of several would be of no mesh.
 void compare_judges(const Original &original, Entry entry, const Mesh &result) {
   if (original.judge.empty()) return;
-  entry.quality = measure_quality(original, result);
+  entry.quality = measure_quality(original.mesh, original.shape, result);
   print_agreement(original.name, entry, ask_judge(original.judge, original.mesh, result));
 }
 
@@ -45,8 +38,8 @@ Quality median_of(const std::vector<Quality> &all) {
   const auto median = [&all](const auto &figure) { return spread_of(all, figure).median; };
   Quality middle{};
   for (double FieldError::*const figure :
-       {&FieldError::rms, &FieldError::max, &FieldError::outside, &FieldError::rms_inner, &FieldError::max_inner,
-        &FieldError::outside_inner}) {
+       {&FieldError::rms, &FieldError::max, &FieldError::outside, &FieldError::max_everywhere, &FieldError::rms_inner,
+        &FieldError::max_inner, &FieldError::outside_inner}) {
     middle.field.*figure = median([figure](const Quality &quality) { return quality.field.*figure; });
   }
   middle.hausdorff = median([](const Quality &quality) { return quality.hausdorff; });
@@ -61,7 +54,7 @@ double median_tets(const std::vector<PeerRun> &runs) {
 
 Entry peer_entry(const Original &original, const std::vector<PeerRun> &runs) {
   std::vector<Quality> qualities;
-  for (const PeerRun &run : runs) qualities.push_back(measure_quality(original, run.result));
+  for (const PeerRun &run : runs) qualities.push_back(measure_quality(original.mesh, original.shape, run.result));
   const auto [wall, cpu] = costs_of(runs);
   const Entry entry{"peer", std::llround(median_tets(runs)), median_of(qualities), wall, cpu};
   compare_judges(original, entry, runs.back().result);
@@ -71,8 +64,8 @@ Entry peer_entry(const Original &original, const std::vector<PeerRun> &runs) {
 Entry preset_entry(const Original &original, const Parameters &parameters, const std::vector<TetlodRun> &runs) {
   const auto [wall, cpu] = costs_of(runs);
   const Mesh &result = runs.back().result;
-  const Entry entry{preset_name(parameters.preset), std::int64_t(result.tets.size()), measure_quality(original, result),
-                    wall, cpu};
+  const Entry entry{preset_name(parameters.preset), std::int64_t(result.tets.size()),
+                    measure_quality(original.mesh, original.shape, result), wall, cpu};
   compare_judges(original, entry, result);
   return entry;
 }

@@ -5,17 +5,10 @@
 #include <vector>
 
 #include "bench_mesh.hpp"
-#include "field_error.hpp"
+#include "quality.hpp"
 #include "spread.hpp"
 
 namespace bench {
-
-struct Quality {
-  FieldError field;
-  double hausdorff;  // over the diagonal
-  double volume;     // over the original's
-  bool valid;
-};
 
 // What one method made of the mesh. The peer is random: each of its figures is the median of the rounds.
 struct Entry {

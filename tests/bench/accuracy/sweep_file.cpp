@@ -10,7 +10,7 @@ namespace bench {
 
 // The names are what the library looks for.
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Spread, median, least, most)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FieldError, rms, max, outside, rms_inner, max_inner, outside_inner)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FieldError, rms, max, outside, max_everywhere, rms_inner, max_inner, outside_inner)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Quality, field, hausdorff, volume, valid)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Entry, method, tets, quality, wall, cpu)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SizeRow, asked, entries)

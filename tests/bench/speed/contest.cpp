@@ -1,5 +1,6 @@
 #include "contest.hpp"
 
+#include "mesh_shape.hpp"
 #include "run_peer.hpp"
 
 namespace bench {
@@ -35,7 +36,7 @@ Side side_of(const Mesh &mesh, const std::vector<Run> &runs, bool random) {
   std::vector<double> rms;
   FieldError error{};
   for (std::size_t i = random ? 0 : runs.size() - 1; i < runs.size(); i++) {
-    error = measure_field_error(mesh, runs[i].result);
+    error = measure_field_error(mesh, runs[i].result, shape_of(runs[i].result).boundary);
     rms.push_back(error.rms);
   }
   return {static_cast<std::int64_t>(runs.back().result.tets.size()),

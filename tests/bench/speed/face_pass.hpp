@@ -16,12 +16,11 @@ class FacePass {
   Cost run();
 
  private:
-  using Face = std::array<std::int32_t, 3>;
   void part(std::size_t i);
 
   const std::vector<Tet> &tets_;
   std::size_t threads_;
-  std::vector<Face> faces_;
+  std::vector<Triangle> faces_;
 };
 
 }  // namespace bench

@@ -10,7 +10,7 @@ namespace bench {
 
 namespace fs = std::filesystem;
 
-SurfaceOnDisk::SurfaceOnDisk(const Point *points, std::size_t point_count, const std::array<std::int32_t, 3> *triangles,
+SurfaceOnDisk::SurfaceOnDisk(const Point *points, std::size_t point_count, const Triangle *triangles,
                              std::size_t triangle_count)
     : path_((fs::temp_directory_path() / ("tetlod_bench_" + std::to_string(getpid()) + ".surface")).string()) {
   std::ofstream file(path_, std::ios::binary);

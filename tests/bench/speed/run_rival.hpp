@@ -13,8 +13,7 @@ namespace bench {
 // its scope.
 class SurfaceOnDisk {
  public:
-  SurfaceOnDisk(const Point *points, std::size_t point_count, const std::array<std::int32_t, 3> *triangles,
-                std::size_t triangle_count);
+  SurfaceOnDisk(const Point *points, std::size_t point_count, const Triangle *triangles, std::size_t triangle_count);
   ~SurfaceOnDisk();
   SurfaceOnDisk(const SurfaceOnDisk &) = delete;
   SurfaceOnDisk &operator=(const SurfaceOnDisk &) = delete;
