@@ -10,7 +10,7 @@ namespace {
 
 std::string described(const Parameters &p) {
   char text[96];
-  std::snprintf(text, sizeof text, "whole run, %s at %g %%, %d thread%s", preset_name(p.preset), 100 * p.target,
+  std::snprintf(text, sizeof text, "preset %s at %.2f %%, %d thread%s", preset_name(p.preset), 100 * p.target,
                 int(p.threads), p.threads == 1 ? "" : "s");
   return text;
 }

@@ -111,12 +111,12 @@ std::string three(const Spread &speed) {
 }
 
 void print_speed(std::FILE *to, const Duel &d) {
-  std::fprintf(to, "  %-58s %-16s %-26s ", d.task.c_str(), d.set.c_str(), d.rival.c_str());
+  std::fprintf(to, "| %-58s | %-16s | %-26s | ", d.task.c_str(), d.set.c_str(), d.rival.c_str());
   if (!d.skipped.empty()) {
-    std::fprintf(to, "skipped: %s\n", d.skipped.c_str());
+    std::fprintf(to, "skipped: %s | | | |\n", d.skipped.c_str());
     return;
   }
-  std::fprintf(to, "%9.1f %9.1f %20s %20s\n", 1e3 * d.cpu.median, 1e3 * d.rival_cpu.median,
+  std::fprintf(to, "%9.1f | %9.1f | %24s | %24s |\n", 1e3 * d.cpu.median, 1e3 * d.rival_cpu.median,
                three(d.cpu_speedup).c_str(), three(d.wall_speedup).c_str());
 }
 
@@ -146,31 +146,32 @@ void print_contest(std::FILE *to, const Contest &c) {
 }
 
 void print_speeds(std::FILE *to, const std::vector<Contest> &contests, const std::vector<Duel> &duels) {
-  std::fprintf(to, "\nTimes faster than others, least / median / most of the rounds\n");
-  std::fprintf(to, "  %-58s %-16s %-26s %9s %9s %20s %20s\n", "task", "set", "rival", "CPU ms", "rival's", "CPU",
-               "wall");
+  std::fprintf(to, "\nTimes faster than others, least / median / most of the rounds\n\n");
+  std::fprintf(to, "| %-58s | %-16s | %-26s | %9s | %9s | %24s | %24s |\n|---|---|---|---|---|---|---|\n", "task",
+               "set", "rival", "CPU ms", "rival's", "times faster: CPU", "wall");
   for (const Contest &c : contests) {
     if (!c.peer) continue;
-    print_speed(to, {"whole run, " + described(c.parameters) + threads_of(c.parameters), c.name, "VTK's edge collapse",
-                     "", c.tetlod.cpu, c.tetlod.wall, c.peer->cpu, c.peer->wall, c.cpu_speedup, c.wall_speedup});
+    print_speed(to, {described(c.parameters) + threads_of(c.parameters), c.name, "VTK's edge collapse", "",
+                     c.tetlod.cpu, c.tetlod.wall, c.peer->cpu, c.peer->wall, c.cpu_speedup, c.wall_speedup});
   }
   for (const Duel &duel : duels) print_speed(to, duel);
   std::fflush(to);
 }
 
 void print_growth(std::FILE *to, const Growth &growth) {
-  std::fprintf(to, "\nGrowth on the generated front\n");
-  std::fprintf(to, "  %12s %9s %12s %12s %12s %12s %14s %10s %10s\n", "tets", "kept", "tetlod CPU", "wall", "peer CPU",
-               "wall", "bytes a tet", "in all MB", "tetlod RMS");
+  std::fprintf(to, "\nGrowth on the generated front; seconds of the CPU and of the wall clock\n\n");
+  std::fprintf(to,
+               "| %12s | %7s | %10s | %9s | %9s | %9s | %11s | %9s | %10s |\n|---|---|---|---|---|---|---|---|---|\n",
+               "tets", "kept", "tetlod CPU", "wall", "peer CPU", "wall", "bytes a tet", "in all MB", "tetlod RMS");
   for (const Contest &c : growth.sizes) {
-    std::fprintf(to, "  %12s %9s %12.3f %12.3f %12s %12s %14.1f %10.0f %10s\n", grouped(c.tets_in).c_str(),
-                 percent(double(c.tetlod.tets_out) / double(c.tets_in)).c_str(), c.tetlod.cpu.median,
-                 c.tetlod.wall.median, c.peer ? fixed(c.peer->cpu.median, 3).c_str() : "",
+    std::fprintf(to, "| %12s | %7s | %10.3f | %9.3f | %9s | %9s | %11.1f | %9.0f | %10s |\n",
+                 grouped(c.tets_in).c_str(), percent(double(c.tetlod.tets_out) / double(c.tets_in)).c_str(),
+                 c.tetlod.cpu.median, c.tetlod.wall.median, c.peer ? fixed(c.peer->cpu.median, 3).c_str() : "",
                  c.peer ? fixed(c.peer->wall.median, 3).c_str() : "", double(c.report.peak_bytes) / double(c.tets_in),
                  bytes_in_all(c) / 1e6, percent(c.tetlod.rms.median).c_str());
   }
   if (growth.sizes.size() < 2) return;
-  std::fprintf(to, "  the least CPU seconds grow as tets to the power %.2f (tetlod)", growth.tetlod_exponent);
+  std::fprintf(to, "\nThe least CPU seconds grow as tets to the power %.2f (tetlod)", growth.tetlod_exponent);
   if (growth.peer_exponent > 0) std::fprintf(to, " and %.2f (the peer)", growth.peer_exponent);
   std::fprintf(to, "\n");
 }
