@@ -146,6 +146,7 @@ void print_contest(std::FILE *to, const Contest &c) {
 }
 
 void print_speeds(std::FILE *to, const std::vector<Contest> &contests, const std::vector<Duel> &duels) {
+  if (contests.empty() && duels.empty()) return;
   std::fprintf(to, "\nTimes faster than others, least / median / most of the rounds\n\n");
   std::fprintf(to, "| %-58s | %-16s | %-26s | %9s | %9s | %24s | %24s |\n|---|---|---|---|---|---|---|\n", "task",
                "set", "rival", "CPU ms", "rival's", "times faster: CPU", "wall");
