@@ -7,9 +7,11 @@
 #include "cull_samples.hpp"
 #include "extract_boundary.hpp"
 #include "find_crossing.hpp"
+#include "footprint.hpp"
 #include "geometry.hpp"
 #include "hash.hpp"
 #include "interpolate.hpp"
+#include "place_probes.hpp"
 #include "prepare.hpp"
 #include "refine.hpp"
 #include "sample_interior.hpp"
@@ -50,6 +52,25 @@ class Pipeline {
     sample();
   }
 
+  /// After begin().
+  Outlook outlook() {
+    Outlook of;
+    of.boundary_triangles = double(boundary_.triangles.size());
+    if (as_published(options_)) {
+      const double least = options_.min_distance * original_.box.diagonal();
+      const double samples =
+          double(selected_.size()) * share_away(original_.view.points, boundary_.triangles, selected_, least, job_);
+      const double of_boundary = options_.sigma * of.boundary_triangles / 2;
+      of.points = of_boundary + samples;
+      of.tets = tets_a_boundary_point * of_boundary + tets_a_sample * samples;
+      return of;
+    }
+    of.tets = std::max(double(budget_.tets), tets_for_bound());
+    of.points = of.tets / tets_a_point;
+    of.probes = double(expected_probes(original_.view, enough_probes(double(budget_.tets))));
+    return of;
+  }
+
   void run(Worker &worker) {
     begin();
     if (as_published(options_)) {
@@ -84,6 +105,16 @@ class Pipeline {
       budget_.sigma = less_decimated(sigma);
       sample();
     }
+  }
+
+  /// How many tets the bound of the error takes, more or less; 0: there is none.
+  double tets_for_bound() {
+    const double bound = options_.max_error * (report_.scalar_max - report_.scalar_min);
+    if (!(bound > 0)) return 0;
+    Array<std::int32_t> vertices(&job_.memory);
+    for (std::size_t v = 0; v < original_.view.points.size(); v++) vertices.push_back(std::int32_t(v));
+    const std::size_t parts = count_linear_parts(original_.view, {vertices.data(), vertices.size()}, bound, job_);
+    return std::min(tets_a_part * double(parts), double(report_.tets_in));
   }
 
   [[noreturn]] void fail_bound() const {
@@ -339,15 +370,6 @@ class Pipeline {
   RemeshResult remeshed_{job_.memory};
 };
 
-/// Of a result, for each of its points.
-double bytes_of_fields(const Input &input) {
-  constexpr double tets_a_point = 6;
-  double bytes = 0;
-  for (const SubmittedField &field : input.fields)
-    bytes += sizeof(double) * field.values.components * (field.association == Association::cell ? tets_a_point : 1);
-  return bytes;
-}
-
 }  // namespace
 
 void run(const Input &input, const Options &options, Worker &worker, Job &job, Result &result) {
@@ -359,19 +381,12 @@ void run(const Input &input, const Options &options, Worker &worker, Job &job, R
 }
 
 std::uint64_t estimate_memory(const Input &input, const Options &options, Job &job) {
-  // Measured on real sets with 2 K to 20 K boundary triangles, results of 30 to 250 K tets.
-  constexpr double bytes_a_triangle = 530, bytes_a_result_point = 360, bytes_a_located_point = 400,
-                   tets_a_result_point = 4;
   job.memory.reset_peak();
   Result result(job.memory);
   Pipeline pipeline(input, options, job, result);
   pipeline.begin();
-  const double triangles = double(result.report.boundary_triangles_in);
-  const double points = as_published(options) ? options.sigma * triangles / 2 + double(result.report.selected_samples)
-                                              : ratio_of(options) * double(result.report.tets_in) / tets_a_result_point;
-  const double carried = input.fields.empty() ? 0 : bytes_a_located_point + bytes_of_fields(input);
-  const double later = double(job.memory.in_use()) +
-                       std::max({bytes_a_triangle * triangles, bytes_a_result_point * points, carried * points});
+  const double in_use = double(job.memory.in_use());
+  const double later = in_use + expected_bytes(pipeline.outlook(), input);
   return std::max(std::uint64_t(job.memory.peak()), std::uint64_t(later));
 }
 

@@ -15,6 +15,8 @@ constexpr double tolerance = 1e-6;
 /// Probes inside a tet of the original: so many for every tet, and so many times its share of the field's changes; more
 /// of both for a small mesh, whose vertices alone would say too little of what is between them.
 constexpr double everywhere = 0.14, by_change = 0.42, small_mesh = 1e5, most_for_small = 1.6;
+/// Probes for each tet of a result that say enough of it.
+constexpr double vertices_a_tet = 8, inner_a_tet = 8;
 constexpr std::size_t block = 1024;
 constexpr int longest_walk = 200;
 
@@ -82,6 +84,12 @@ Probe probe_inside(const MeshView &original, const Tet &t, std::uint64_t key) {
   return probe;
 }
 
+/// What the shares of the tets are multiplied with, so that there are not many more than `most`.
+double inner_scale(double tets, double most) {
+  const double more = std::clamp(std::sqrt(small_mesh / tets), 1.0, most_for_small);
+  return std::min(more, most / (tets * (everywhere + by_change)));
+}
+
 void add_inner(const MeshView &original, double most, Job &job, Array<Probe> &probes) {
   double sum = 0;
   for (std::size_t i = 0; i < original.tets.size(); i++) {
@@ -89,8 +97,7 @@ void add_inner(const MeshView &original, double most, Job &job, Array<Probe> &pr
     sum += change_of(original, original.tets[i]);
   }
   const double count = double(original.tets.size()), mean = sum / count;
-  const double more = std::clamp(std::sqrt(small_mesh / count), 1.0, most_for_small);
-  const double scale = std::min(more, most / (count * (everywhere + by_change)));
+  const double scale = inner_scale(count, most);
   EvenShares shares;
   for (std::size_t i = 0; i < original.tets.size(); i++) {
     if (i % 16384 == 0) job.poll(0);
@@ -215,8 +222,22 @@ void sort_by_home(std::size_t begin, std::size_t end, AdaptiveMesh &mesh, Array<
 
 }  // namespace
 
+ProbeOptions enough_probes(double tets) {
+  ProbeOptions options;
+  options.most_vertices = vertices_a_tet * tets;
+  options.most_inner = inner_a_tet * tets;
+  return options;
+}
+
+std::size_t expected_probes(const MeshView &original, const ProbeOptions &options) {
+  const auto tets = double(original.tets.size());
+  const double inner = inner_scale(tets, options.most_inner) * (everywhere + by_change) * tets;
+  return std::size_t(std::min(double(original.points.size()), options.most_vertices) + 1.01 * inner);
+}
+
 std::int64_t place_probes(const MeshView &original, const ProbeOptions &options, Job &job, AdaptiveMesh &mesh) {
   mesh.probes.clear();
+  mesh.probes.reserve(expected_probes(original, options));
   add_vertices(original, options.most_vertices, job.memory, mesh.probes);
   mesh.vertex_probes = mesh.probes.size();
   if (options.most_inner > 0) add_inner(original, options.most_inner, job, mesh.probes);

@@ -11,6 +11,12 @@ struct ProbeOptions {
   bool project_outside = false;  ///< compare vertices outside of the mesh at the nearest point of its boundary
 };
 
+/// As many as say enough of a result of so many tets: more cost time and memory alone.
+ProbeOptions enough_probes(double tets);
+
+/// How many there will be, not many less.
+std::size_t expected_probes(const MeshView &original, const ProbeOptions &options);
+
 /// Gives `mesh`, which is connected and has values, its probes in place of those that it has: every original vertex
 /// that a tet uses, and random points in original tets, more of them where the field changes more: with vertices alone
 /// the mesh would be fitted to them and go its own way in between. Returns how many of the vertices are outside of the

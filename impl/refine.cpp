@@ -17,8 +17,6 @@ namespace {
 /// What a tet must gain to be worth it, in mean errors of a tet; and where a vertex goes that was worth its tets once.
 constexpr double price_of_tet = 1.33, price_of_vertex = 0.5;
 constexpr int fit_steps = 8, last_fit_steps = 20;
-/// Probes for each tet that there shall be.
-constexpr double vertices_a_tet = 8, inner_a_tet = 8;
 
 class Refinement {
  public:
@@ -35,11 +33,11 @@ class Refinement {
   }
 
   RefineReport run() {
-    place_probes(original_, enough_probes(), job_, mesh_);
+    place_probes(original_, projected(enough_probes(double(options_.tets))), job_, mesh_);
     follow_field();
     insert(options_.tets - std::int64_t(mesh_.count()));
     fit_values(last_fit_steps, job_, mesh_);
-    place_probes(original_, every_vertex(), job_, mesh_);
+    place_probes(original_, projected(every_vertex()), job_, mesh_);
     if (options_.bound > 0) report_.beyond_bound = hold_bound(options_.bound, job_, mesh_);
     report_.max_error = largest_error(mesh_, job_).value;
     count_points();
@@ -48,18 +46,13 @@ class Refinement {
   }
 
  private:
-  /// More would say no more of a tet than these do.
-  ProbeOptions enough_probes() const {
-    ProbeOptions probes;
-    probes.most_vertices = vertices_a_tet * double(options_.tets);
-    probes.most_inner = inner_a_tet * double(options_.tets);
-    probes.project_outside = options_.bound > 0;
-    return probes;
-  }
-
-  ProbeOptions every_vertex() const {
+  static ProbeOptions every_vertex() {
     ProbeOptions probes;
     probes.most_inner = 0;
+    return probes;
+  }
+  /// A bound is for the vertices outside, too.
+  ProbeOptions projected(ProbeOptions probes) const {
     probes.project_outside = options_.bound > 0;
     return probes;
   }

@@ -246,6 +246,16 @@ TEST(Check, IgnoresPointsWithoutAFiniteValueTogetherWithTheirTets) {
   EXPECT_EQ(report.boundary_triangles_in, 2 * 2 * (16 + 12 + 12));
 }
 
+/// Estimates and runs.
+void expect_estimate(tetlod_context *context, const std::string &what) {
+  std::uint64_t estimate = 0;
+  ASSERT_EQ(tetlod_estimate_memory(context, &estimate), TETLOD_OK) << message_of(context);
+  ASSERT_EQ(tetlod_run(context), TETLOD_OK) << message_of(context);
+  const double peak = double(last_report(context).peak_bytes);
+  EXPECT_LT(double(estimate), 1.5 * peak) << what;
+  EXPECT_GT(1.5 * double(estimate), peak) << what;
+}
+
 TEST(EstimateMemory, IsWithinAFactorOfOneAndAHalf) {
   for (int n : {8, 16, 24})
     for (double sigma : {0.05, 1.0})
@@ -255,12 +265,32 @@ TEST(EstimateMemory, IsWithinAFactorOfOneAndAHalf) {
         submit(context.get(), cube);
         ASSERT_EQ(tetlod_set_sigma(context.get(), sigma), TETLOD_OK);
         ASSERT_EQ(tetlod_set_rho(context.get(), rho), TETLOD_OK);
-        std::uint64_t estimate = 0;
-        ASSERT_EQ(tetlod_estimate_memory(context.get(), &estimate), TETLOD_OK) << message_of(context.get());
-        ASSERT_EQ(tetlod_run(context.get()), TETLOD_OK) << message_of(context.get());
-        const double peak = double(last_report(context.get()).peak_bytes);
-        EXPECT_LT(double(estimate), 1.5 * peak) << n << ' ' << sigma << ' ' << rho;
-        EXPECT_GT(1.5 * double(estimate), peak) << n << ' ' << sigma << ' ' << rho;
+        expect_estimate(context.get(), std::to_string(n) + ' ' + std::to_string(sigma) + ' ' + std::to_string(rho));
+      }
+}
+
+/// Sizes, bounds and fields, also of cells, each with stages of their own.
+TEST(EstimateMemory, KnowsTargetsBoundsAndFields) {
+  Cube cube(20);
+  for (std::size_t v = 0; v < cube.values.size(); v++)
+    cube.values[v] = std::sin(9 * cube.xyz[3 * v]) * std::cos(7 * cube.xyz[3 * v + 1]) + cube.xyz[3 * v + 2];
+  std::vector<double> of_points(3 * cube.values.size(), 1), of_tets(cube.corners.size() / 4, 2);
+  const tetlod_array points = array_of(TETLOD_FLOAT64, cube.values.size(), 3, of_points.data());
+  const tetlod_array tets = array_of(TETLOD_FLOAT64, of_tets.size(), 1, of_tets.data());
+  for (double ratio : {0.0, 0.1, 0.5})
+    for (double bound : {0.0, 0.05})
+      for (bool fields : {false, true}) {
+        const Context context = make_context();
+        submit(context.get(), cube);
+        ASSERT_EQ(tetlod_set_rho(context.get(), 0), TETLOD_OK);
+        ASSERT_EQ(tetlod_set_real(context.get(), TETLOD_OPT_TARGET_RATIO, ratio), TETLOD_OK);
+        ASSERT_EQ(tetlod_set_real(context.get(), TETLOD_OPT_MAX_ERROR, bound), TETLOD_OK);
+        if (fields) {
+          ASSERT_EQ(tetlod_submit_field(context.get(), "p", TETLOD_POINT_FIELD, &points), TETLOD_OK);
+          ASSERT_EQ(tetlod_submit_field(context.get(), "t", TETLOD_CELL_FIELD, &tets), TETLOD_OK);
+        }
+        expect_estimate(context.get(), "ratio " + std::to_string(ratio) + ", bound " + std::to_string(bound) +
+                                           (fields ? ", fields" : ""));
       }
 }
 

@@ -1,0 +1,114 @@
+#include "footprint.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include "adaptive_mesh.hpp"
+#include "geometry.hpp"
+#include "surface_distance.hpp"
+
+namespace tetlod {
+
+namespace {
+
+// Of decimation and of what a result is made from.
+constexpr double bytes_a_triangle = 530, bytes_a_result_point = 360;
+// Of a run with a target: neighbours, frames or normal equations, and room to grow.
+constexpr double bytes_a_refined_tet = 250, bytes_a_refined_point = 70, bytes_a_probe = sizeof(Probe) + 8;
+// Of a field: original vertices are held by many tets, the centroids of cells by one.
+constexpr double bytes_a_located_point = 400, bytes_a_located_cell = 190, bytes_a_stencil = 48;
+
+/// Of a result, and of what it is written to.
+double bytes_of_result(const Outlook &outlook) { return 32 * outlook.points + 16 * outlook.tets; }
+
+double bytes_of_fields(const Outlook &outlook, const Input &input) {
+  double values = 0;
+  bool of_points = false, of_cells = false;
+  for (const SubmittedField &field : input.fields) {
+    const bool cells = field.association == Association::cell;
+    (cells ? of_cells : of_points) = true;
+    values += sizeof(double) * field.values.components * (cells ? outlook.tets : outlook.points);
+  }
+  const double points = of_points ? outlook.points : 0, cells = of_cells ? outlook.tets : 0;
+  return bytes_of_result(outlook) +
+         std::max({bytes_a_located_point * points, bytes_a_stencil * points + bytes_a_located_cell * cells,
+                   bytes_a_stencil * points + values});
+}
+
+/// Largest distance of the values of some vertices from the linear function that fits them best.
+double off_linear(const MeshView &mesh, Span<const std::int32_t> vertices) {
+  const auto n = double(vertices.size());
+  Vec3 mean(0);
+  double value = 0;
+  for (std::int32_t v : vertices) {
+    mean += mesh.points[std::size_t(v)] / n;
+    value += mesh.scalars[std::size_t(v)] / n;
+  }
+  glm::dmat3 square(0);
+  Vec3 right(0);
+  for (std::int32_t v : vertices) {
+    const Vec3 d = mesh.points[std::size_t(v)] - mean;
+    square += glm::outerProduct(d, d);
+    right += (mesh.scalars[std::size_t(v)] - value) * d;
+  }
+  const double damping = 1e-6 * (square[0][0] + square[1][1] + square[2][2]);
+  for (int k = 0; k < 3; k++) square[k][k] += damping;
+  const Vec3 gradient = glm::inverse(square) * right;
+  double worst = 0;
+  for (std::int32_t v : vertices)
+    worst = std::max(
+        worst, std::abs(mesh.scalars[std::size_t(v)] - value - glm::dot(gradient, mesh.points[std::size_t(v)] - mean)));
+  return worst;
+}
+
+/// About the longest axis, at the median.
+std::size_t halve(const MeshView &mesh, Span<std::int32_t> vertices) {
+  Box box;
+  for (std::int32_t v : vertices) box.add(mesh.points[std::size_t(v)]);
+  const Vec3 extent = box.high - box.low;
+  const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+  const std::size_t middle = vertices.size() / 2;
+  std::nth_element(vertices.begin(), vertices.begin() + std::ptrdiff_t(middle), vertices.end(),
+                   [&](std::int32_t a, std::int32_t b) {
+                     const double x = mesh.points[std::size_t(a)][axis], y = mesh.points[std::size_t(b)][axis];
+                     return x != y ? x < y : a < b;
+                   });
+  return middle;
+}
+
+}  // namespace
+
+double expected_bytes(const Outlook &outlook, const Input &input) {
+  const double refining =
+      outlook.probes > 0
+          ? bytes_a_refined_tet * outlook.tets + bytes_a_refined_point * outlook.points + bytes_a_probe * outlook.probes
+          : 0;
+  return std::max({bytes_a_triangle * outlook.boundary_triangles, bytes_a_result_point * outlook.points, refining,
+                   input.fields.empty() ? 0 : bytes_of_fields(outlook, input)});
+}
+
+double share_away(Span<const Vec3> points, Span<const Triangle> boundary, Span<const std::int32_t> samples,
+                  double least, Job &job) {
+  constexpr std::size_t enough = 1000;
+  const NearestTriangle nearest(points, boundary, 8, job);
+  const std::size_t step = samples.size() / enough + 1;
+  std::size_t asked = 0, away = 0;
+  for (std::size_t i = 0; i < samples.size(); i += step) {
+    if (asked++ % 64 == 0) job.poll(0.5);
+    away += nearest.nearest(points[std::size_t(samples[i])]).distance >= least;
+  }
+  return asked ? double(away) / double(asked) : 1;
+}
+
+std::size_t count_linear_parts(const MeshView &mesh, Span<std::int32_t> vertices, double bound, Job &job) {
+  constexpr std::size_t too_few = 5;  // a linear function fits them
+  job.poll(0.5);
+  if (vertices.size() < too_few || off_linear(mesh, {vertices.data(), vertices.size()}) <= bound) return 1;
+  const std::size_t middle = halve(mesh, vertices);
+  return count_linear_parts(mesh, {vertices.data(), middle}, bound, job) +
+         count_linear_parts(mesh, {vertices.data() + middle, vertices.size() - middle}, bound, job);
+}
+
+}  // namespace tetlod

@@ -1,0 +1,30 @@
+// The memory that a run will take, from what is known before its dear stages.
+#pragma once
+#include <cstdint>
+
+#include "job.hpp"
+#include "mesh.hpp"
+#include "pipeline.hpp"
+
+namespace tetlod {
+
+/// What is to be expected of a run.
+struct Outlook {
+  double boundary_triangles = 0;  ///< of the original
+  double points = 0, tets = 0;    ///< of the result
+  double probes = 0;              ///< of a run with a target; 0: none
+};
+
+/// Bytes of the largest stage that is still to come, beside what is in use after sampling. By experience: the
+/// constants come from real sets with 2 K to 54 K boundary triangles and results of 0.4 K to 750 K tets.
+double expected_bytes(const Outlook &outlook, const Input &input);
+
+/// Share of the samples, out of some of them, that the original's boundary is not nearer to than `least`.
+double share_away(Span<const Vec3> points, Span<const Triangle> boundary, Span<const std::int32_t> samples,
+                  double least, Job &job);
+
+/// Parts into which the vertices are to be divided until in none the values are off by more than `bound` from a linear
+/// function: how many tets a bound of the error takes goes by it. Reorders `vertices`.
+std::size_t count_linear_parts(const MeshView &mesh, Span<std::int32_t> vertices, double bound, Job &job);
+
+}  // namespace tetlod
