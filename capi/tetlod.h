@@ -307,7 +307,7 @@ enum {
                                    sigma, lambda and min-distance have no meaning; 0, the default: as published */
   TETLOD_OPT_EFFORT = 21,       /* int, "effort": with a target ratio, vertices inside move and faces and
                                    edges flip where the field gains by it: TETLOD_EFFORT_FAST: in one pass;
-                                   TETLOD_EFFORT_ACCURATE, the default: in four more, which also remove and insert
+                                   TETLOD_EFFORT_ACCURATE, the default: in 4 to 12 more, which also remove and insert
                                    vertices */
   TETLOD_OPT_MAX_ERROR = 22,    /* real, "max-error": bound of the error at every original vertex, as a fraction of the
                                    values' range; one that lies outside the result is compared at the nearest point of

@@ -15,8 +15,13 @@ constexpr double first_ratio = 0.05;
 
 inline double ratio_of(const Options &options) { return options.target_ratio > 0 ? options.target_ratio : first_ratio; }
 
-/// Rounds of refine(), after the pass that every run with a target has.
-inline int rounds_of(const Options &options) { return options.effort == effort_accurate ? 4 : 0; }
+/// Rounds of refine(), after the pass that every run with a target has. A small mesh is done soon, and has few vertices
+/// to go by: it gets more.
+inline int rounds_of(const Options &options, const Report &report) {
+  constexpr double least = 4, most = 12, small_mesh = 2e5;
+  if (options.effort != effort_accurate) return 0;
+  return int(std::clamp(least * std::sqrt(small_mesh / double(report.tets_in)), least, most));
+}
 
 /// What a target size is spent on.
 struct Budget {

@@ -33,11 +33,12 @@ class Refinement {
   }
 
   RefineReport run() {
-    place_probes(original_, projected(enough_probes(double(options_.tets))), job_, mesh_);
+    const ProbeOptions enough = projected(enough_probes(double(options_.tets)));
+    place_probes(original_, enough, job_, mesh_);
     follow_field();
     insert(options_.tets - std::int64_t(mesh_.count()));
     fit_values(last_fit_steps, job_, mesh_);
-    place_probes(original_, projected(every_vertex()), job_, mesh_);
+    if (enough.most_vertices < double(original_.points.size())) place_probes(original_, every_vertex(), job_, mesh_);
     if (options_.bound > 0) report_.beyond_bound = hold_bound(options_.bound, job_, mesh_);
     report_.max_error = largest_error(mesh_, job_).value;
     count_points();
@@ -46,15 +47,15 @@ class Refinement {
   }
 
  private:
-  static ProbeOptions every_vertex() {
-    ProbeOptions probes;
-    probes.most_inner = 0;
-    return probes;
-  }
   /// A bound is for the vertices outside, too.
   ProbeOptions projected(ProbeOptions probes) const {
     probes.project_outside = options_.bound > 0;
     return probes;
+  }
+  ProbeOptions every_vertex() const {
+    ProbeOptions probes;
+    probes.most_inner = 0;
+    return projected(probes);
   }
 
   void follow_field() {
