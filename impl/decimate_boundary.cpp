@@ -34,6 +34,7 @@ class Decimator {
   Decimator(const Surface &surface, const SurfaceTopology &topology, Span<const std::uint8_t> locked,
             const DecimateOptions &options, Job &job)
       : surface_(surface),
+        careful_(options.careful),
         job_(job),
         lambda_(options.lambda),
         charge_(job.memory, openmesh_bytes_a_triangle * surface.triangles.size()),
@@ -43,7 +44,7 @@ class Decimator {
     for (std::size_t v = 0; v < point_.size(); v++) update_sums(VertexHandle(int(v)));
     if (options.max_deviation > 0) deviation_.emplace(surface, options.max_deviation, job);
     if (options.field_weight > 0) quadrics_.find(options.field_weight, triangle_, point_, scalar_);
-    build_tree();
+    if (careful_) build_tree();
   }
 
   std::int64_t edges() const { return edges_; }
@@ -291,7 +292,7 @@ class Decimator {
     if (breaks_topology(h) || joins_sheets(h) || !look_around(h, placement.point)) return;
     if (pinches_ring(star_) || turns_too_far(star_) || folds(star_) || makes_sliver(star_)) return;
     if (deviation_ && deviation_->is_passed(star_)) return;
-    if (crosses_surface(star_, {tree_, point_, triangle_, id_})) return;
+    if (careful_ && crosses_surface(star_, {tree_, point_, triangle_, id_})) return;
     collapse(h, placement);
   }
 
@@ -306,7 +307,7 @@ class Decimator {
     }
     if (!quadrics_.empty()) quadrics_.merge(from.idx(), to.idx());
     for (HalfedgeHandle side : {h, o}) {
-      tree_.refit(mesh_.face_handle(side).idx(), Box());
+      if (careful_) tree_.refit(mesh_.face_handle(side).idx(), Box());
       const HalfedgeHandle next = mesh_.next_halfedge_handle(side);
       for (HalfedgeHandle gone : {side, next, mesh_.next_halfedge_handle(next)})
         queue_.remove(mesh_.edge_handle(gone).idx());
@@ -315,7 +316,7 @@ class Decimator {
     if (deviation_) deviation_->move_on(star_);
     edges_ -= 3;
     update_around(to);
-    if (edges_ < edges_in_tree_ / 2) build_tree();
+    if (careful_ && edges_ < edges_in_tree_ / 2) build_tree();
   }
 
   void update_around(VertexHandle centre) {
@@ -336,7 +337,7 @@ class Decimator {
                      apex(mesh_, spoke).idx()};
     at(triangle_, face) = t;
     at(plane_, face) = plane_of(point(t[0]), point(t[1]), point(t[2]));
-    tree_.refit(face.idx(), box_of(point_, t));
+    if (careful_) tree_.refit(face.idx(), box_of(point_, t));
   }
 
   void update_costs_at(VertexHandle v) {
@@ -349,6 +350,7 @@ class Decimator {
   }
 
   const Surface &surface_;
+  bool careful_;
   Job &job_;
   double lambda_;
   bool by_length_ = false;

@@ -14,6 +14,7 @@ struct DecimateOptions {
   double clean_edges = 0;    ///< edges shorter than this fraction of the diagonal are collapsed first
   double max_deviation = 0;  ///< distance between the boundaries, measured at the vertices of both; 0: no limit
   double field_weight = 0;   ///< length that a unit of the field counts as; 0: the paper's cost, which does not see it
+  bool careful = true;       ///< no collapse makes the surface cross itself; else that is for the caller to find out
 };
 
 struct DecimateReport {

@@ -5,6 +5,7 @@
 #include "budget.hpp"
 #include "carry_fields.hpp"
 #include "cull_samples.hpp"
+#include "decimate_and_check.hpp"
 #include "extract_boundary.hpp"
 #include "find_crossing.hpp"
 #include "footprint.hpp"
@@ -231,10 +232,10 @@ class Pipeline {
     const double weight = as_published(options_) || !(range > 0) ? 0 : field_weight_of(report_) * diagonal / range;
     const DecimateOptions options{sigma, options_.lambda, options_.clean_edges, options_.max_deviation * diagonal,
                                   weight};
-    const DecimateReport decimated = decimate_boundary(surface, topology, flags_of(surface), options, job_);
+    const DecimateReport decimated =
+        decimate_and_check(surface, topology, flags_of(surface), options, input_.index_base, job_);
     report_.cleaned_edges = decimated.cleaned_edges;
     report_.max_deviation = decimated.deviation / diagonal;
-    refuse_crossing(surface, input_.index_base, job_);
     surface_ = std::move(surface);
     topology_ = SurfaceTopology(job_.memory);
     find_topology(surface_.points, surface_.triangles, job_, topology_);

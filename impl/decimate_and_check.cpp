@@ -1,0 +1,42 @@
+#include "decimate_and_check.hpp"
+
+#include "find_crossing.hpp"
+
+namespace tetlod {
+
+namespace {
+
+/// In one piece that touches itself nowhere, what crosses nothing in the end can have passed through nothing.
+bool can_be_checked_afterwards(const SurfaceTopology &topology) {
+  return topology.components == 1 && topology.nonmanifold_edges == 0 && topology.nonmanifold_points == 0;
+}
+
+void copy(const Surface &from, Surface &to) {
+  to.points.assign(from.points.begin(), from.points.end());
+  to.scalars.assign(from.scalars.begin(), from.scalars.end());
+  to.origin.assign(from.origin.begin(), from.origin.end());
+  to.triangles.assign(from.triangles.begin(), from.triangles.end());
+}
+
+}  // namespace
+
+DecimateReport decimate_and_check(Surface &surface, const SurfaceTopology &topology, Span<const std::uint8_t> locked,
+                                  const DecimateOptions &options, std::int32_t index_base, Job &job) {
+  // Hardly ever does a collapse make a crossing, and looking for one takes as long as all the rest.
+  if (can_be_checked_afterwards(topology)) {
+    Surface simplified(job.memory);
+    copy(surface, simplified);
+    DecimateOptions careless = options;
+    careless.careful = false;
+    const DecimateReport report = decimate_boundary(simplified, topology, locked, careless, job);
+    if (find_crossing(simplified, job).first < 0) {
+      surface = std::move(simplified);
+      return report;
+    }
+  }
+  const DecimateReport report = decimate_boundary(surface, topology, locked, options, job);
+  refuse_crossing(surface, index_base, job);
+  return report;
+}
+
+}  // namespace tetlod

@@ -1,0 +1,107 @@
+// A surface, what decimation makes of it, and what has to hold whatever was asked for.
+#pragma once
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <random>
+#include <vector>
+
+#include "brute_force.hpp"
+#include "decimate_and_check.hpp"
+#include "geometry.hpp"
+#include "meshes.hpp"
+#include "remesh_surfaces.hpp"
+
+namespace tetlod {
+
+using namespace test;
+
+class Decimate : public testing::Test {
+ protected:
+  Host host;
+  Surface original{host.memory}, result{host.memory};
+  SurfaceTopology topology{host.memory};
+  std::vector<std::uint8_t> locked;
+  DecimateReport report;
+
+  /// Origins are numbered as points.
+  void start_with(Surface &&surface) {
+    original = std::move(surface);
+    complete(original, [](const Vec3 &p) { return p.x + 2 * p.y; });
+    locked.clear();
+    topology = SurfaceTopology(host.memory);
+    find_topology(original.points, original.triangles, host.job, topology);
+    ASSERT_TRUE(crossings(original, host.memory).empty()) << "the test's own surface crosses itself";
+  }
+
+  static void copy(const Surface &from, Surface &to) {
+    to.points.assign(from.points.begin(), from.points.end());
+    to.scalars.assign(from.scalars.begin(), from.scalars.end());
+    to.origin.assign(from.origin.begin(), from.origin.end());
+    to.triangles.assign(from.triangles.begin(), from.triangles.end());
+  }
+
+  void decimate(const DecimateOptions &options) {
+    copy(original, result);
+    report = decimate_boundary(result, topology, {locked.data(), locked.size()}, options, host.job);
+  }
+  void decimate(double sigma, double lambda = 0.1) { decimate(DecimateOptions{sigma, lambda, 0}); }
+
+  double volume() const { return volume_inside(result.points, result.triangles); }
+  double relative_volume() const { return volume() / volume_inside(original.points, original.triangles); }
+
+  /// All that has to hold, whatever was asked for.
+  void expect_sound() {
+    const SurfaceFacts before = facts_of(original.triangles), after = facts_of(result.triangles);
+    EXPECT_TRUE(after.closed);
+    EXPECT_EQ(after.components, before.components);
+    EXPECT_EQ(after.euler, before.euler);
+    EXPECT_LE(after.nonmanifold_edges, before.nonmanifold_edges);
+    EXPECT_EQ(after.vertices, std::int64_t(result.points.size())) << "points that no triangle uses";
+    EXPECT_TRUE(crossings(result, host.memory).empty());
+    EXPECT_EQ(report.edges_in, std::int64_t(3 * original.triangles.size() / 2));
+    EXPECT_EQ(report.edges_out, std::int64_t(3 * result.triangles.size() / 2));
+    ASSERT_EQ(result.scalars.size(), result.points.size());
+    ASSERT_EQ(result.origin.size(), result.points.size());
+    const auto [low, high] = std::minmax_element(original.scalars.begin(), original.scalars.end());
+    for (double s : result.scalars) EXPECT_TRUE(s >= *low && s <= *high) << "a value beyond the range";
+    for (std::size_t i = 0; i < result.points.size(); i++)
+      if (result.origin[i] >= 0) expect_untouched(i);
+    expect_areas();
+  }
+
+  void expect_untouched(std::size_t i) const {
+    const auto v = std::size_t(result.origin[i]);
+    EXPECT_EQ(std::memcmp(&result.points[i], &original.points[v], sizeof(Vec3)), 0);
+    EXPECT_EQ(result.scalars[i], original.scalars[v]);
+  }
+
+  void expect_areas() const {
+    for (const Triangle &t : result.triangles)
+      EXPECT_GT(triangle_quality(result.points[std::size_t(t[0])], result.points[std::size_t(t[1])],
+                                 result.points[std::size_t(t[2])]),
+                0.0);
+  }
+
+  void expect_stays(std::size_t v) const {
+    const auto found = std::find(result.origin.begin(), result.origin.end(), std::int32_t(v));
+    ASSERT_NE(found, result.origin.end()) << "vertex " << v << " is gone";
+    expect_untouched(std::size_t(found - result.origin.begin()));
+  }
+
+  /// Of the vertices of either surface from the other.
+  double brute_deviation() const {
+    double largest = 0;
+    for (const Vec3 &p : original.points)
+      largest = std::max(largest, brute_nearest(result.points, result.triangles, p).distance);
+    for (const Vec3 &p : result.points)
+      largest = std::max(largest, brute_nearest(original.points, original.triangles, p).distance);
+    return largest;
+  }
+
+  bool reaches(double sigma) const { return double(report.edges_out) <= std::ceil(sigma * double(report.edges_in)); }
+};
+
+}  // namespace tetlod
