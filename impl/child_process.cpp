@@ -8,6 +8,7 @@
 #include <sys/socket.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -176,6 +177,7 @@ void ChildProcess::start(const std::string &path, const Descriptor &request, con
   actions.close_from(protocol::first_free_descriptor);
   const pid_t pid = spawn(path, actions);
 
+  pid_ = pid;
   control_ = std::move(control.host);
   output_ = std::move(output.host);
   // A host that ignores SIGCHLD, or waits for any child, may have reaped it by now; then there is nothing to hold.
@@ -199,6 +201,14 @@ bool ChildProcess::has_ended() const noexcept {
   if (handle_.number() < 0) return true;
   pollfd ended = {handle_.number(), POLLIN, 0};
   return ::poll(&ended, 1, 0) == 1;
+}
+
+/// Not of one that has ended: its number may be another's.
+double ChildProcess::cpu_seconds() const noexcept {
+  clockid_t clock;
+  timespec used;
+  if (has_ended() || ::clock_getcpuclockid(pid_, &clock) != 0 || ::clock_gettime(clock, &used) != 0) return -1;
+  return double(used.tv_sec) + 1e-9 * double(used.tv_nsec);
 }
 
 // Signals and waits go through the pidfd: the number of a process that the host has reaped may be another's already.

@@ -48,6 +48,8 @@ class ChildProcess {
   /// False in a process forked from the one that started it.
   bool is_ours() const noexcept;
   bool has_ended() const noexcept;
+  /// Of processor time that it has used; negative where that cannot be known.
+  double cpu_seconds() const noexcept;
   /// Kills it if it still runs, and reaps it.
   Ending end() noexcept;
 
@@ -59,7 +61,7 @@ class ChildProcess {
  private:
   void start(const std::string &path, const Descriptor &request, const Descriptor &response);
 
-  pid_t owner_;
+  pid_t owner_, pid_ = -1;
   Descriptor control_, output_, handle_;
 };
 

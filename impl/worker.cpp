@@ -27,6 +27,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int turn_milliseconds = 20;                // between two polls of the job
 constexpr double greeting_seconds = 30;              // for a loaded machine; usually 1 ms
+constexpr double idle_worth = 5;                     // seconds of waiting that count as one of work
 constexpr std::size_t chunk = std::size_t(1) << 22;  // bytes moved between two polls of the job
 
 /// How far a call has got: nobody knows, so the fraction nears the end without reaching it.
@@ -34,7 +35,13 @@ class Patience {
  public:
   Patience(double seconds, double expected, double progress_begin, double progress_end)
       : seconds_(seconds), expected_(expected), begin_(progress_begin), end_(progress_end) {}
-  bool is_over() const { return seconds_ > 0 && elapsed() > seconds_; }
+  /// Of the worker's own time, so that what a result is does not depend on who else is on the machine.
+  bool is_over(const ChildProcess &worker, double cpu_before) const {
+    if (seconds_ <= 0) return false;
+    const double cpu = worker.cpu_seconds();
+    if (cpu < 0) return !worker.has_ended() && elapsed() > seconds_;
+    return std::max(cpu - cpu_before, elapsed() / idle_worth) > seconds_;
+  }
   void poll(Job &job) const { job.poll(begin_ + (end_ - begin_) * (elapsed() / (elapsed() + expected_))); }
 
  private:
@@ -218,6 +225,7 @@ void Worker::Process::wait_for_something(Job &job) {
 
 template <class Message>
 Worker::Process::Answer Worker::Process::receive(Message &message, const Patience &patience, Job &job) {
+  const double cpu_before = std::max(child_->cpu_seconds(), 0.0);
   for (;;) {
     const bool ended = child_->has_ended();  // asked before: the last message may come just before the end
     const ssize_t size = ::recv(child_->control(), &message, sizeof message, MSG_DONTWAIT | MSG_TRUNC);
@@ -225,7 +233,7 @@ Worker::Process::Answer Worker::Process::receive(Message &message, const Patienc
     if (size > 0) return Answer::nonsense;
     const bool nothing_yet = size < 0 && (errno == EAGAIN || errno == EINTR);
     if (ended || !nothing_yet) return Answer::end;
-    if (patience.is_over()) return Answer::silence;
+    if (patience.is_over(*child_, cpu_before)) return Answer::silence;
     wait_for_something(job);
     patience.poll(job);
   }
@@ -241,7 +249,7 @@ void Worker::Process::ensure(const std::string &path, std::uint64_t address_spac
   start.address_space = address_space;
   send(start);  // a program that has ended already is noticed below
   protocol::Hello hello;
-  const Patience patience(greeting_seconds, greeting_seconds, progress, progress);
+  const Patience patience(greeting_seconds / idle_worth, greeting_seconds, progress, progress);
   check_greeting(path, receive(hello, patience, job), hello, job);
 }
 

@@ -49,7 +49,8 @@ class Worker {
   Worker(const Worker &) = delete;
   Worker &operator=(const Worker &) = delete;
 
-  /// Calls TetGen and waits, polling the job. `seconds` is the share of this attempt (0: only the job's limit).
+  /// Calls TetGen and waits, polling the job. `seconds` is the share of this attempt, of the worker's processor
+  /// time, of which waiting is a part (0: only the job's limit).
   /// Throws Status::backend_missing (with the path looked at, or the version found), cancelled, time_limit, memory,
   /// memory_limit. Everything else that goes wrong is a code in the reply.
   void tetrahedralize(const TetgenRequest &request, double seconds, Job &job, TetgenReply &reply);

@@ -94,6 +94,7 @@ void misbehave() {
   if (is("is killed")) std::raise(SIGKILL);
   if (is("exits")) std::exit(9);
   if (is("hangs")) hang();
+  if (is("waits")) ::usleep(300000);
   if (is("stops")) std::raise(SIGSTOP);
   if (is("spins"))
     for (volatile int i = 0;; i = i + 1) {

@@ -133,6 +133,13 @@ TEST_F(WorkerTest, TakesTooLong) {
   }
 }
 
+/// Its share is of its own time: who else is on the machine has no part in what a result is.
+TEST_F(WorkerTest, IsSlowedDown) {
+  fake("waits");
+  call(0.15);
+  EXPECT_EQ(reply.code, 0) << reply.failure;
+}
+
 TEST_F(WorkerTest, TimeLimit) {
   fake("spins");
   Job limited(memory, parallel);
