@@ -1,7 +1,10 @@
 # The filter vtkTetlodSimplify as a VTK module (bindings/vtk): a library for C++, and the Python package vtktetlod where
 # VTK's wrapping tools (Debian: with libvtk9-dev), Python's headers (python3-dev) and VTK's Python modules
 # (python3-vtk9) are found.
-find_package(VTK 9 REQUIRED COMPONENTS CommonCore CommonDataModel CommonExecutionModel FiltersGeneral)
+#
+# What the tool and the tests need of VTK is found here, too: VTK's targets are of the folder that finds them first.
+find_package(VTK 9 REQUIRED COMPONENTS CommonCore CommonDataModel CommonExecutionModel FiltersCore FiltersGeneral
+  FiltersGeometry IOImage IOLegacy IOXML RenderingFreeType)
 
 set(TETLOD_VTK_PYTHON OFF)
 if(VTK_WRAP_PYTHON AND TARGET VTK::WrapPython)

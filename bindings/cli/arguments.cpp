@@ -103,6 +103,8 @@ void add_options(CLI::App &app, Arguments &arguments) {
   for (const NumberOption &option : kNumberOptions) add_number(app, option, arguments);
   for (const NumberOption &option : kPolicyOptions) add_policy(app, option, arguments);
   app.add_option("--report", arguments.report, "writes what the run did as JSON")->type_name("FILE");
+  app.add_option("--pictures", arguments.pictures, "writes pictures of both meshes and a report.html there")
+      ->type_name("DIR");
   app.add_flag("--quiet", arguments.quiet, "prints errors only");
 }
 

@@ -14,6 +14,7 @@ struct Arguments {
   std::optional<int32_t> preset;      // TETLOD_PRESET_*
   std::map<int32_t, double> numbers;  // TETLOD_OPT_* that were given
   std::string report;                 // empty: none
+  std::string pictures;               // a folder; empty: none
   bool quiet = false;
   std::string command;  // as it was typed
 };

@@ -9,6 +9,7 @@
 #include "failure.hpp"
 #include "interrupt.hpp"
 #include "output_file.hpp"
+#include "pictures.hpp"
 #include "progress_bar.hpp"
 #include "quiet_vtk.hpp"
 #include "read_grid.hpp"
@@ -44,6 +45,7 @@ void run(const Arguments &arguments) {
   OutputFile result(arguments.output);
   std::optional<OutputFile> report;
   if (!arguments.report.empty()) report.emplace(arguments.report);
+  if (!arguments.pictures.empty()) prepare_pictures(arguments.pictures);
   ProgressBar bar(arguments.quiet);
   Notes notes;
   ToolSeconds seconds;
@@ -60,6 +62,10 @@ void run(const Arguments &arguments) {
   seconds.writing = watch.lap();
   stop_if_interrupted();
   const std::string field = simplified->GetPointData()->GetScalars()->GetName();
+  if (!arguments.pictures.empty()) {
+    bar.show("pictures", 0.0);
+    write_pictures(arguments, original, simplified, field, *filter, seconds);
+  }
   if (report) write_report(report->temporary(), arguments, field, *filter, seconds);
   result.keep();
   if (report) report->keep();

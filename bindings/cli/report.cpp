@@ -12,13 +12,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-tetlod_run_report run_report(const tetlod_context *context) {
-  tetlod_run_report run{};
-  run.struct_size = sizeof run;
-  check(tetlod_fetch_report(context, &run), context);
-  return run;
-}
-
 void put_counts(Json &json, const tetlod_run_report &run) {
   json["tets_in"] = run.tets_in;
   json["tets_out"] = run.tets_out;
@@ -81,7 +74,7 @@ Json seconds_json(const tetlod_run_report &run, const ToolSeconds &tool) {
   return {{"prepare", run.seconds_prepare}, {"boundary", run.seconds_boundary}, {"decimate", run.seconds_decimate},
           {"sample", run.seconds_sample},   {"cull", run.seconds_cull},         {"remesh", run.seconds_remesh},
           {"values", run.seconds_values},   {"total", run.seconds_total},       {"reading", tool.reading},
-          {"writing", tool.writing},        {"measuring", tool.measuring}};
+          {"writing", tool.writing},        {"measuring", tool.measuring},      {"pictures", tool.pictures}};
 }
 
 // Every option that the library has, as it was in effect.
@@ -101,6 +94,13 @@ Json options_json(const tetlod_context *context) {
 }
 
 }  // namespace
+
+tetlod_run_report run_report(const tetlod_context *context) {
+  tetlod_run_report run{};
+  run.struct_size = sizeof run;
+  check(tetlod_fetch_report(context, &run), context);
+  return run;
+}
 
 void write_report(const std::string &path, const Arguments &arguments, const std::string &field,
                   const vtkTetlodSimplify &filter, const ToolSeconds &seconds) {

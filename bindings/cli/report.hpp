@@ -10,8 +10,11 @@ namespace cli {
 
 // Seconds of the tool's own, beside those of tetlod_run.
 struct ToolSeconds {
-  double reading = 0, writing = 0, measuring = 0;
+  double reading = 0, writing = 0, measuring = 0, pictures = 0;
 };
+
+// The counts of the last run. Throws Failure.
+tetlod_run_report run_report(const tetlod_context *context);
 
 void write_report(const std::string &path, const Arguments &arguments, const std::string &field,
                   const vtkTetlodSimplify &filter, const ToolSeconds &seconds);

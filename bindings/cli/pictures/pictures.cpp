@@ -1,0 +1,70 @@
+#include "pictures.hpp"
+
+#include <filesystem>
+#include <fstream>
+
+#include "failure.hpp"
+#include "figure.hpp"
+#include "html_report.hpp"
+#include "interrupt.hpp"
+#include "output_file.hpp"
+#include "stopwatch.hpp"
+
+namespace cli {
+namespace {
+
+void write_whole(const std::string &path, const std::string &bytes) {
+  OutputFile file(path);
+  std::ofstream stream(file.temporary(), std::ios::binary);
+  stream << bytes;
+  stream.close();
+  if (!stream) throw Failure(path + ": cannot be written");
+  file.keep();
+}
+
+std::string drawn_on(const Figure &figure, const Theme &theme) {
+  Canvas page(figure.width, figure.height, theme);
+  figure.draw(page);
+  return png_of(page.image());
+}
+
+DrawnFigure drawn(const Figure &figure) {
+  stop_if_interrupted();
+  return {figure.name, figure.title, figure.caption, drawn_on(figure, light_theme()), drawn_on(figure, dark_theme()),
+          figure.width};
+}
+
+std::vector<DrawnFigure> all_figures(const Pair &pair) {
+  const View view = view_of(pair);
+  std::vector<DrawnFigure> figures;
+  figures.push_back(drawn(surface_figure(pair, view)));
+  figures.push_back(drawn(isosurface_figure(pair, view)));
+  figures.push_back(drawn(slice_figure(pair)));
+  figures.push_back(drawn(histogram_figure(pair)));
+  return figures;
+}
+
+}  // namespace
+
+void prepare_pictures(const std::string &folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw Failure(folder + ": cannot be made: " + error.message());
+  const OutputFile probe((std::filesystem::path(folder) / "report.html").string());
+}
+
+void write_pictures(const Arguments &arguments, vtkUnstructuredGrid *original, vtkUnstructuredGrid *simplified,
+                    const std::string &field, const vtkTetlodSimplify &filter, ToolSeconds &seconds) {
+  Stopwatch watch;
+  const std::filesystem::path folder(arguments.pictures);
+  const std::vector<DrawnFigure> figures =
+      all_figures(pair_of(original, simplified, field, run_report(filter.GetContext())));
+  for (const DrawnFigure &figure : figures) {
+    write_whole((folder / (figure.name + ".png")).string(), figure.light);
+    write_whole((folder / (figure.name + "-dark.png")).string(), figure.dark);
+  }
+  seconds.pictures = watch.lap();
+  write_whole((folder / "report.html").string(), html_report(arguments, field, filter, seconds, figures));
+}
+
+}  // namespace cli

@@ -1,0 +1,87 @@
+#include "scale.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+namespace cli {
+namespace {
+
+constexpr double kLogarithmicFrom = 10;  // times the least value
+
+// 1, 2 or 5 times a power of ten.
+double nice_step(double raw) {
+  const double power = std::pow(10.0, std::floor(std::log10(raw))), digit = raw / power;
+  return power * (digit < 1.5 ? 1 : digit < 3.5 ? 2 : digit < 7.5 ? 5 : 10);
+}
+
+std::vector<double> linear_ticks(const Scale &scale) {
+  std::vector<double> ticks;
+  if (!(scale.high > scale.low)) return {scale.low};
+  const double step = nice_step((scale.high - scale.low) / 5);
+  for (double k = std::ceil(scale.low / step - 1e-9); k * step <= scale.high * (1 + 1e-12) + 1e-9 * step; k++)
+    ticks.push_back(k == 0 ? 0.0 : k * step);
+  return ticks;
+}
+
+std::vector<double> logarithmic_ticks(const Scale &scale) {
+  std::vector<double> ticks;
+  const double decades = std::log10(scale.high / scale.low);
+  const double every = std::max(1.0, std::ceil(decades / 6));
+  for (double e = std::floor(std::log10(scale.low)); e <= std::log10(scale.high); e += every) {
+    for (const double digit : {1.0, 2.0, 5.0}) {
+      const double tick = digit * std::pow(10.0, e);
+      if ((digit == 1 || decades < 2.5) && tick >= scale.low && tick <= scale.high) ticks.push_back(tick);
+    }
+  }
+  return ticks;
+}
+
+}  // namespace
+
+double Scale::share(double value) const {
+  if (!(high > low)) return 0.5;
+  const double share =
+      logarithmic ? std::log(std::max(value, low) / low) / std::log(high / low) : (value - low) / (high - low);
+  return std::clamp(share, 0.0, 1.0);
+}
+
+double Scale::value(double share) const {
+  return logarithmic ? low * std::pow(high / low, share) : low + share * (high - low);
+}
+
+Scale scale_for(double low, double high) { return {low, high, low > 0 && high > kLogarithmicFrom * low}; }
+
+std::vector<double> ticks_of(const Scale &scale) {
+  return scale.logarithmic ? logarithmic_ticks(scale) : linear_ticks(scale);
+}
+
+std::vector<double> with_ends(const Scale &scale, double least_gap) {
+  std::vector<double> ticks{scale.low};
+  for (const double tick : ticks_of(scale)) {
+    const double at = scale.share(tick);
+    if (at >= least_gap && at <= 1 - least_gap) ticks.push_back(tick);
+  }
+  if (scale.high > scale.low) ticks.push_back(scale.high);
+  return ticks;
+}
+
+std::string count_text(long long count) {
+  std::string text = std::to_string(count);
+  for (std::size_t at = text.size(); at > 3 && text[at - 4] != '-'; at -= 3) text.insert(at - 3, ",");
+  return text;
+}
+
+std::string number_text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  if (std::abs(value) >= 1e4 && std::abs(value) < 1e8) return count_text(std::llround(std::strtod(text, nullptr)));
+  std::string number(text);
+  const std::size_t exponent = number.find('e');
+  if (exponent == std::string::npos) return number;
+  const int power = std::atoi(number.c_str() + exponent + 1);  // without its sign and zeros
+  return number.substr(0, exponent + 1) + std::to_string(power);
+}
+
+}  // namespace cli

@@ -1,0 +1,32 @@
+// Numbers along an axis.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace cli {
+
+struct Scale {
+  double low = 0, high = 1;
+  bool logarithmic = false;
+
+  // 0 at the low end, 1 at the high one.
+  double share(double value) const;
+  double value(double share) const;
+};
+
+// Logarithmic where all values are above zero and the greatest is many times the least.
+Scale scale_for(double low, double high);
+
+// Numbers with few digits between the ends, some five of them.
+std::vector<double> ticks_of(const Scale &scale);
+
+// The same and the ends, without ticks that are nearer to an end than that share.
+std::vector<double> with_ends(const Scale &scale, double least_gap);
+
+// Four digits: 1.234, 12,340, 3e-9.
+std::string number_text(double value);
+// With thousands apart.
+std::string count_text(long long count);
+
+}  // namespace cli

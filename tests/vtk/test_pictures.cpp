@@ -1,0 +1,132 @@
+// What the tool's pictures are drawn with: numbers along axes, colours, and the raster.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "colour_map.hpp"
+#include "raster.hpp"
+#include "scale.hpp"
+
+namespace vtk_test {
+namespace {
+
+using namespace cli;
+
+TEST(Scale, TicksAreRoundNumbersWithinTheEnds) {
+  EXPECT_EQ(ticks_of({0, 10, false}), (std::vector<double>{0, 2, 4, 6, 8, 10}));
+  EXPECT_EQ(ticks_of({0.2, 30, true}), (std::vector<double>{0.2, 0.5, 1, 2, 5, 10, 20}));
+  for (const double least : {-1e-7, 0.0, 3.7, 1e12}) {
+    const Scale scale{least, least + 0.123 * (1 + std::abs(least)), false};
+    const auto ticks = ticks_of(scale);
+    EXPECT_GE(ticks.size(), 3U);
+    EXPECT_LE(ticks.size(), 9U);
+    for (const double tick : ticks) EXPECT_TRUE(tick >= scale.low && tick <= scale.high * (1 + 1e-12)) << tick;
+  }
+}
+
+TEST(Scale, IsLogarithmicForPositiveValuesOfManySizesAlone) {
+  EXPECT_TRUE(scale_for(0.1, 2).logarithmic);
+  EXPECT_FALSE(scale_for(1, 9).logarithmic);
+  EXPECT_FALSE(scale_for(0, 9).logarithmic);
+  EXPECT_FALSE(scale_for(-1, 9).logarithmic);
+  for (const Scale &scale : {Scale{0.1, 2, true}, Scale{-3, 9, false}}) {
+    for (const double share : {0.0, 0.3, 1.0}) EXPECT_NEAR(scale.share(scale.value(share)), share, 1e-12);
+  }
+}
+
+TEST(Scale, AConstantFieldHasATick) {
+  EXPECT_EQ(ticks_of({4, 4, false}), std::vector<double>{4});
+  EXPECT_EQ(Scale({4, 4, false}).share(4), 0.5);
+}
+
+TEST(Scale, NumbersAreShort) {
+  EXPECT_EQ(number_text(0.000012), "1.2e-5");
+  EXPECT_EQ(number_text(3.314e-7), "3.314e-7");
+  EXPECT_EQ(number_text(30243.4), "30,240");
+  EXPECT_EQ(number_text(-1234567), "-1,235,000");
+  EXPECT_EQ(number_text(0.25), "0.25");
+  EXPECT_EQ(count_text(1234567), "1,234,567");
+  EXPECT_EQ(count_text(-123), "-123");
+}
+
+double lightness(const Colour &c) { return 0.2126 * c.red + 0.7152 * c.green + 0.0722 * c.blue; }
+
+// So that the maps can be read without colours.
+TEST(Colours, TheLightnessAloneTellsValuesApart) {
+  for (int i = 0; i < 100; i++) {
+    const double share = i / 100.0, next = share + 0.01;
+    EXPECT_GT(lightness(field_colour(next)), lightness(field_colour(share))) << share;
+    EXPECT_LT(lightness(error_colour(next)), lightness(error_colour(share))) << share;
+  }
+}
+
+// A square of two triangles that covers the left half of the picture, at a height above the screen.
+Shape left_half(double height, double value) {
+  Shape shape;
+  shape.points = {{-1, -1, height}, {0, -1, height}, {0, 1, height}, {-1, 1, height}};
+  shape.values = {value, value, value, value};
+  shape.triangles = {{0, 1, 2}, {0, 2, 3}};
+  return shape;
+}
+
+View straight() {
+  View view;
+  view.pixels = 10;
+  view.width = view.height = 20;
+  return view;
+}
+
+TEST(Raster, CoversWhatItShould) {
+  Raster raster(20, 20, 2);
+  raster.draw_triangles(left_half(0, 7), straight());
+  std::size_t covered = 0;
+  for (const auto &sample : raster.samples()) {
+    covered += sample.covered() ? 1 : 0;
+    if (sample.covered()) {
+      EXPECT_EQ(sample.value, 7.0F);
+    }
+  }
+  EXPECT_EQ(covered, raster.samples().size() / 2);
+  const Image image = raster.image([](const Raster::Sample &) { return Colour{1, 0, 0}; });
+  EXPECT_EQ(image.pixel(4, 10)[3], 255);
+  EXPECT_EQ(image.pixel(15, 10)[3], 0);
+}
+
+TEST(Raster, TheNearestIsSeenInWhateverOrder) {
+  for (const bool near_first : {true, false}) {
+    Raster raster(20, 20, 1);
+    raster.draw_triangles(left_half(near_first ? 1 : 0, near_first ? 1 : 0), straight());
+    raster.draw_triangles(left_half(near_first ? 0 : 1, near_first ? 0 : 1), straight());
+    EXPECT_EQ(raster.samples()[10 * 20 + 5].value, 1.0F);
+  }
+}
+
+TEST(Raster, ValuesVaryLinearly) {
+  Shape shape = left_half(0, 0);
+  for (std::size_t k = 0; k < 4; k++) shape.values[k] = shape.points[k][0] + 2 * shape.points[k][1];
+  Raster raster(20, 20, 1);
+  raster.draw_triangles(shape, straight());
+  for (std::size_t y = 0; y < 20; y++) {
+    for (std::size_t x = 0; x < 10; x++) {
+      const double right = (double(x) + 0.5 - 10) / 10, up = (10 - double(y) - 0.5) / 10;
+      EXPECT_NEAR(double(raster.samples()[y * 20 + x].value), right + 2 * up, 1e-6);
+    }
+  }
+}
+
+TEST(View, FitsWhatItShows) {
+  const std::vector<Vector> points = {{5, 5, 5}, {9, 6, 5}, {5, 6, 8}};
+  for (int corner = 0; corner < 8; corner++) {
+    View view = view_from_corner(corner, {4, 1, 3});
+    EXPECT_NEAR(dot(view.right, view.up), 0, 1e-12);
+    EXPECT_NEAR(dot(cross(view.right, view.up), view.toward), 1, 1e-12) << "right-handed";
+    fit(view, points, 300, 200);
+    for (const Vector &p : points) {
+      const Vector at = view.project(p);
+      EXPECT_TRUE(at[0] > 0 && at[0] < 300 && at[1] > 0 && at[1] < 200);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace vtk_test
