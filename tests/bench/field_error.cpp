@@ -122,6 +122,15 @@ double error_outside(const Mesh &original, std::size_t vertex, const Mesh &resul
   return std::fabs(value - original.values[vertex]);
 }
 
+// A point of no tet is no vertex.
+std::vector<bool> used_points(const Mesh &mesh) {
+  std::vector<bool> used(mesh.points.size(), false);
+  for (const Tet &tet : mesh.tets) {
+    for (const std::int32_t corner : tet) used[std::size_t(corner)] = true;
+  }
+  return used;
+}
+
 }  // namespace
 
 FieldError measure_field_error(const Mesh &original, const Mesh &result, const std::vector<Triangle> &boundary) {
@@ -130,7 +139,9 @@ FieldError measure_field_error(const Mesh &original, const Mesh &result, const s
   const double range = range_of(original.values);
   Sum vertices, inner;
   double most_outside = 0;
+  const std::vector<bool> used = used_points(original);
   for (std::size_t i = 0; i < original.points.size(); i++) {
+    if (!used[i]) continue;
     const std::optional<double> found = finder.value_at(original.points[i]);
     vertices.add(original.values[i], found);
     if (!found) most_outside = std::max(most_outside, error_outside(original, i, result, surface));
