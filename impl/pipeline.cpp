@@ -68,7 +68,8 @@ class Pipeline {
     }
     of.tets = std::max(double(budget_.tets), tets_for_bound());
     of.points = of.tets / tets_a_point;
-    of.probes = double(expected_probes(original_.view, enough_probes(double(budget_.tets))));
+    of.probes =
+        double(expected_probes(original_.view, enough_probes(double(budget_.tets), rounds_of(options_, report_))));
     return of;
   }
 

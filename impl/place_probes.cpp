@@ -16,7 +16,7 @@ constexpr double tolerance = 1e-6;
 /// of both for a small mesh, whose vertices alone would say too little of what is between them.
 constexpr double everywhere = 0.14, by_change = 0.42, small_mesh = 1e5, most_for_small = 1.6;
 /// Probes for each tet of a result that say enough of it.
-constexpr double vertices_a_tet = 8, inner_a_tet = 8;
+constexpr double vertices_a_tet = 8, inner_a_tet = 8, share_without_rounds = 0.5;
 constexpr std::size_t block = 1024;
 constexpr int longest_walk = 200;
 
@@ -222,10 +222,11 @@ void sort_by_home(std::size_t begin, std::size_t end, AdaptiveMesh &mesh, Array<
 
 }  // namespace
 
-ProbeOptions enough_probes(double tets) {
+ProbeOptions enough_probes(double tets, int rounds) {
+  const double share = rounds > 0 ? 1 : share_without_rounds;
   ProbeOptions options;
-  options.most_vertices = vertices_a_tet * tets;
-  options.most_inner = inner_a_tet * tets;
+  options.most_vertices = share * vertices_a_tet * tets;
+  options.most_inner = share * inner_a_tet * tets;
   return options;
 }
 

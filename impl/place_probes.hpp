@@ -11,8 +11,8 @@ struct ProbeOptions {
   bool project_outside = false;  ///< compare vertices outside of the mesh at the nearest point of its boundary
 };
 
-/// As many as say enough of a result of so many tets: more cost time and memory alone.
-ProbeOptions enough_probes(double tets);
+/// As many as say enough of a result of so many tets, refined in so many rounds: more cost time and memory alone.
+ProbeOptions enough_probes(double tets, int rounds);
 
 /// How many there will be, not many less.
 std::size_t expected_probes(const MeshView &original, const ProbeOptions &options);

@@ -33,7 +33,7 @@ class Refinement {
   }
 
   RefineReport run() {
-    const ProbeOptions enough = projected(enough_probes(double(options_.tets)));
+    const ProbeOptions enough = projected(enough_probes(double(options_.tets), options_.rounds));
     place_probes(original_, enough, job_, mesh_);
     follow_field();
     insert(options_.tets - std::int64_t(mesh_.count()));
