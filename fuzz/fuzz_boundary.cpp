@@ -149,7 +149,9 @@ void decimate(Stage &stage, const tetlod::Surface &before, const tetlod::Surface
   const std::vector<std::uint8_t> locked = decode_locks(in, before.points.size());
   const bool crossed = tetlod::find_crossing(before, stage.job()).first >= 0;
   const double field_weight = decode_field_weight(in, before);
-  const tetlod::DecimateOptions how{options.sigma, options.lambda, options.clean_edges, field_weight};
+  const double bound = in.one_in(4) ? in.fraction() * in.fraction() : 0;
+  const double max_deviation = before.points.empty() ? 0 : bound * tetlod::box_of(before.points).diagonal();
+  const tetlod::DecimateOptions how{options.sigma, options.lambda, options.clean_edges, max_deviation, field_weight};
   tetlod::Surface after(stage.memory());
   copy(before, after);
   tetlod::DecimateReport report;
@@ -163,6 +165,9 @@ void decimate(Stage &stage, const tetlod::Surface &before, const tetlod::Surface
         crossed ? ", of a surface that crosses itself" : "");
   check_decimated(before, after, report, crossed, stage.job());
   check_locked(before, locked, after);
+  if (max_deviation > 0)
+    check_deviation(points_of(before.points), faces_of(before.triangles), points_of(after.points),
+                    faces_of(after.triangles), bound);
 }
 
 void run_stages(Stage &stage, const Mesh &mesh, Bytes &in) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <utility>
@@ -84,6 +85,62 @@ std::pair<std::int32_t, std::int32_t> crossing_of(const std::vector<Point> &poin
   return tetlod::find_crossing(surface, job);
 }
 
+Point minus(const Point &a, const Point &b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+double dot(const Point &a, const Point &b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Point cross(const Point &a, const Point &b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+double distance_to_segment(const Point &p, const Point &a, const Point &b) {
+  const Point way = minus(b, a), to = minus(p, a);
+  const double length2 = dot(way, way), t = length2 > 0 ? std::clamp(dot(to, way) / length2, 0.0, 1.0) : 0;
+  const Point rest = {to[0] - t * way[0], to[1] - t * way[1], to[2] - t * way[2]};
+  return std::sqrt(dot(rest, rest));
+}
+
+/// To the plane where p lies above the triangle, else to one of its edges.
+double distance_to_triangle(const Point &p, const Point &a, const Point &b, const Point &c) {
+  const double to_edges =
+      std::min({distance_to_segment(p, a, b), distance_to_segment(p, b, c), distance_to_segment(p, c, a)});
+  const Point normal = cross(minus(b, a), minus(c, a));
+  const auto left_of = [&](const Point &from, const Point &to) {
+    return dot(cross(minus(to, from), minus(p, from)), normal) >= 0;
+  };
+  const double length2 = dot(normal, normal);
+  if (!(length2 > 0) || !left_of(a, b) || !left_of(b, c) || !left_of(c, a)) return to_edges;
+  return std::min(to_edges, std::abs(dot(minus(p, a), normal)) / std::sqrt(length2));
+}
+
+std::set<std::int64_t> vertices_of(const std::vector<Face> &faces) {
+  std::set<std::int64_t> used;
+  for (const Face &face : faces) used.insert(face.begin(), face.end());
+  return used;
+}
+
+/// Of a surface's vertices from another surface.
+double farthest(const std::vector<Point> &from, const std::vector<Face> &faces, const std::vector<Point> &to,
+                const std::vector<Face> &others) {
+  double most = 0;
+  for (const std::int64_t v : vertices_of(faces)) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Face &f : others)
+      least = std::min(least, distance_to_triangle(from[std::size_t(v)], to[std::size_t(f[0])], to[std::size_t(f[1])],
+                                                   to[std::size_t(f[2])]));
+    most = std::max(most, least);
+  }
+  return most;
+}
+
+double diagonal_of(const std::vector<Point> &points, const std::vector<Face> &faces) {
+  Point low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
+  for (const std::int64_t v : vertices_of(faces))
+    for (std::size_t k = 0; k < 3; k++) {
+      low[k] = std::min(low[k], points[std::size_t(v)][k]);
+      high[k] = std::max(high[k], points[std::size_t(v)][k]);
+    }
+  return std::sqrt(dot(minus(high, low), minus(high, low)));
+}
+
 constexpr std::size_t face_corners[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
 /// Turned so that the lowest corner comes first: the same for the same side of the same face.
@@ -151,6 +208,15 @@ void check_same_cut_topology(const std::vector<Point> &before, const std::vector
          long(cut.nonmanifold_edges), long(now.nonmanifold_edges));
   DEMAND(cut.nonmanifold_points == now.nonmanifold_points, "points where it touches itself stay: %ld, now %ld",
          long(cut.nonmanifold_points), long(now.nonmanifold_points));
+}
+
+void check_deviation(const std::vector<Point> &before, const std::vector<Face> &original,
+                     const std::vector<Point> &after, const std::vector<Face> &boundary, double bound) {
+  const double diagonal = diagonal_of(before, original);
+  if (!(diagonal > 1e-90 && diagonal < 1e90)) return;  // squares of distances leave the range of doubles
+  const double moved = farthest(before, original, after, boundary), made = farthest(after, boundary, before, original);
+  DEMAND(std::max(moved, made) <= (bound + 1e-9) * diagonal, "max-deviation %.17g of %g: %g, %g are measured", bound,
+         diagonal, moved, made);
 }
 
 void check_values(const std::vector<double> &values, double low, double high) {

@@ -31,6 +31,9 @@ void check_same_topology(const std::vector<Face> &original, const std::vector<Fa
 /// a matter of chance.
 void check_same_cut_topology(const std::vector<Point> &before, const std::vector<Face> &original,
                              const std::vector<Point> &after, const std::vector<Face> &boundary);
+/// No vertex of either surface is further from the other than `bound` times the diagonal of the first.
+void check_deviation(const std::vector<Point> &before, const std::vector<Face> &original,
+                     const std::vector<Point> &after, const std::vector<Face> &boundary, double bound);
 void check_values(const std::vector<double> &values, double low, double high);
 
 /// All of it, for the result of a run with this mesh.

@@ -137,6 +137,8 @@ void Session::accept(const Mesh &mesh, const Facts &facts) {
     check_result(mesh, facts, *last_);
     check_report(mesh, facts);
     check_flags(mesh, facts);
+    if (const double bound = option(TETLOD_OPT_MAX_DEVIATION); bound > 0)
+      check_deviation(mesh.points, facts.boundary, last_->points, last_->boundary, bound);
   } else {  // which points merge, or which tets are flat, is not found out again
     check_positive(last_->points, last_->tets);
     check_conforming(last_->tets, last_->boundary);

@@ -45,9 +45,9 @@ class Inspector {
       Tet tet{};
       bool sound = true;
       for (int k = 0; k < 4; k++) {
-        const std::int64_t v = input_.tets.integer(t, k) - base_;
-        sound = sound && v >= 0 && v < found_.points;
-        tet[std::size_t(k)] = sound ? std::int32_t(v) : 0;
+        const std::int64_t v = input_.tets.integer(t, k);  // may be anything: compared before it is computed with
+        sound = sound && v >= base_ && v < found_.points + base_;
+        tet[std::size_t(k)] = sound ? std::int32_t(v - base_) : 0;
       }
       if (sound)
         keep(tet, std::int32_t(t));
