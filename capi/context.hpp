@@ -9,6 +9,7 @@
 #include "memory.hpp"
 #include "parallel.hpp"
 #include "pipeline.hpp"
+#include "prepared.hpp"
 #include "tetlod.h"
 #include "worker.hpp"
 
@@ -71,6 +72,7 @@ struct tetlod_context {
   std::string scalars_name;
   tetlod::Worker worker;
   tetlod::Parallel parallel;
+  tetlod::Prepared prepared{memory};               ///< of earlier runs, for the next
   std::unique_ptr<tetlod::capi::Outcome> outcome;  ///< null before the first successful run
 };
 

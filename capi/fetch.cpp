@@ -78,6 +78,9 @@ tetlod_run_report report_of(const Outcome &outcome) {
   to.hash = from.hash;
   to.scalar_min = from.scalar_min;
   to.scalar_max = from.scalar_max;
+  to.reused_tets = from.reused_tets;
+  to.reused_triangles = from.reused_triangles;
+  to.reused_samples = from.reused_samples;
   return to;
 }
 

@@ -56,7 +56,7 @@ const Stencil &stencil_of(tetlod_context &context) {
     begin(context);
     Job job(context.memory, context.parallel);
     connect_log(job, context);
-    find_stencil(original, outcome.options, job, outcome.result);
+    find_stencil(original, outcome.options, context.prepared, job, outcome.result);
   }
   return outcome.result.stencil;
 }

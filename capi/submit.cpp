@@ -76,5 +76,6 @@ tetlod_status tetlod_clear(tetlod_context *handle) {
   return entry(handle, [](tetlod_context &context) {
     context.input = Input{};
     context.scalars_name.clear();
+    context.prepared.forget(context.memory);
   });
 }

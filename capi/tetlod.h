@@ -165,6 +165,10 @@ typedef struct tetlod_run_report {
                            range; those outside the result count with TETLOD_OPT_MAX_ERROR alone */
   double max_deviation; /* largest distance of a boundary vertex, of the original or of the result, from the other's
                            boundary, over the diagonal of the bounding box */
+  int64_t reused_tets;  /* taken over from earlier runs, see tetlod_run: tets_in where the mesh's checks and boundary
+                           were, else 0 */
+  int64_t reused_triangles; /* boundary_triangles_out where its decimation was, else 0 */
+  int64_t reused_samples;   /* samples known to be inside or outside, near or far */
 } tetlod_run_report;
 
 /* The field error of the last result, as the paper estimates it [4]. Errors are |result - original|, relative to the
@@ -388,6 +392,16 @@ TETLOD_API tetlod_status tetlod_estimate_memory(tetlod_context *context, uint64_
  * TETLOD_ERR_MEMORY_LIMIT, TETLOD_ERR_CANCELLED, TETLOD_ERR_TIME_LIMIT
  * TETLOD_ERR_REMESH, TETLOD_ERR_BACKEND_MISSING
  * TETLOD_ERR_MAX_ERROR
+ *
+ * A run takes over from earlier runs of its context, with the bytes that it would have made itself,
+ *   the checks of the mesh, its boundary and how that hangs together, while points, tets, point flags, merge tolerance
+ *   and policies are the same and all values are finite;
+ *   the boundary's decimation, if lambda, clean-edges and max-deviation are the same as well, as far as it went: a
+ *   sigma that is not smaller. With a target ratio or a bound its cost sees the field: then only for the same values;
+ *   what culling found of each sample, if sigma, min-distance and boundary-leaf are also those of the last run.
+ * The same means the same contents (by a fingerprint of 128 bits, taken anew in every run) in the same layout: arrays
+ * may be changed in place, or submitted again. What is kept for that counts as memory of the context; a run that fails
+ * and tetlod_clear forget it, and a run that finds no memory first forgets it and tries again.
  *
  * Guarantees of a result: every tet has a positive volume, every face is used by one or two tets, the boundary is
  * closed, does not cross itself and has the components and the Euler characteristic of the original's, every value lies

@@ -77,16 +77,19 @@ void carry_fields(const Input &input, const Options &options, const Original &or
   }
 }
 
-void find_stencil(const Input &input, const Options &options, Job &job, Result &result) {
+void find_stencil(const Input &input, const Options &options, Prepared &prepared, Job &job, Result &result) {
   if (!result.stencil.ids.empty()) return;
-  Original original(job.memory);
-  prepare_original(input, options, job, original);
-  Boundary boundary(job.memory);
-  extract_boundary(original.view, job, boundary);
+  Prepared fresh(job.memory);
+  const bool held = prepared.holds(input, options, job);
+  if (!held) {
+    prepare_original(input, options, job, fresh.original);
+    extract_boundary(fresh.original.view, job, fresh.boundary);
+  }
+  const Prepared &of = held ? prepared : fresh;
   Array<Vec3> copy(&job.memory);
   Stencil stencil(job.memory);
-  find_stencils(original.view, boundary.triangles, scaled_points(original, result.mesh, copy), options.tet_leaf, job,
-                stencil);
+  find_stencils(of.original.view, of.boundary.triangles, scaled_points(of.original, result.mesh, copy),
+                options.tet_leaf, job, stencil);
   result.stencil = std::move(stencil);
 }
 

@@ -1,9 +1,8 @@
 // 3.5  The fields that ride along, on the simplified mesh.
 #pragma once
-#include "extract_boundary.hpp"
 #include "job.hpp"
 #include "pipeline.hpp"
-#include "prepare.hpp"
+#include "prepared.hpp"
 
 namespace tetlod {
 
@@ -13,7 +12,8 @@ namespace tetlod {
 void carry_fields(const Input &input, const Options &options, const Original &original, const Boundary &boundary,
                   Job &job, Result &result);
 
-/// Writes result.stencil, where it is not there yet, from the input of the run, which is read again.
-void find_stencil(const Input &input, const Options &options, Job &job, Result &result);
+/// Writes result.stencil, where it is not there yet, from the input of the run, which is read again, or from
+/// what is prepared of it.
+void find_stencil(const Input &input, const Options &options, Prepared &prepared, Job &job, Result &result);
 
 }  // namespace tetlod

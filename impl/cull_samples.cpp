@@ -7,7 +7,7 @@ namespace tetlod {
 
 namespace {
 
-enum class Verdict : std::uint8_t { keep, outside, too_near };
+enum class Verdict : std::uint8_t { unknown, keep, outside, too_near };
 
 /// Of the triangle's least height; nearer points make TetGen slow, or replace vertices.
 constexpr double least_of_height = 0.02;
@@ -32,18 +32,24 @@ Verdict judge(const Vec3 &p, const Surface &surface, const SurfaceDistance &dist
 
 CullReport cull_samples(Span<const Vec3> points, const Surface &surface, const SurfaceTopology &topology,
                         double min_distance, std::int64_t leaf, Job &job, Array<std::int32_t> &samples,
-                        Span<const std::uint8_t> may_be_near) {
+                        Span<const std::uint8_t> may_be_near, Span<std::uint8_t> known) {
   const SurfaceDistance distance(surface, topology, leaf, job);
-  Array<Verdict> verdicts(samples.size(), Verdict::keep, &job.memory);
+  Array<Verdict> verdicts(samples.size(), Verdict::unknown, &job.memory);
+  CullReport report;
+  if (!known.empty())
+    for (std::size_t i = 0; i < samples.size(); i++) {
+      verdicts[i] = Verdict(known[std::size_t(samples[i])]);
+      report.known += verdicts[i] != Verdict::unknown;
+    }
   job.parallel.for_blocks(samples.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; i++) {
       const auto v = std::size_t(samples[i]);
-      verdicts[i] = judge(points[v], surface, distance, min_distance);
+      if (verdicts[i] == Verdict::unknown) verdicts[i] = judge(points[v], surface, distance, min_distance);
+      if (!known.empty()) known[v] = std::uint8_t(verdicts[i]);
       if (verdicts[i] == Verdict::too_near && !may_be_near.empty() && may_be_near[v]) verdicts[i] = Verdict::keep;
     }
     job.poll(double(end) / double(samples.size()));
   });
-  CullReport report;
   std::size_t kept = 0;
   for (std::size_t i = 0; i < samples.size(); i++) {
     report.outside += verdicts[i] == Verdict::outside;

@@ -20,21 +20,21 @@ void copy(const Surface &from, Surface &to) {
 
 }  // namespace
 
-DecimateReport decimate_and_check(Surface &surface, const SurfaceTopology &topology, Span<const std::uint8_t> locked,
-                                  const DecimateOptions &options, std::int32_t index_base, Job &job) {
+DecimateReport decimate_and_check(Surface &surface, const SurfaceTopology &topology, const DecimateOptions &options,
+                                  std::int32_t index_base, Job &job, const Decimation &decimate) {
   // Hardly ever does a collapse make a crossing, and looking for one takes as long as all the rest.
   if (can_be_checked_afterwards(topology)) {
     Surface simplified(job.memory);
     copy(surface, simplified);
     DecimateOptions careless = options;
     careless.careful = false;
-    const DecimateReport report = decimate_boundary(simplified, topology, locked, careless, job);
+    const DecimateReport report = decimate(simplified, careless);
     if (find_crossing(simplified, job).first < 0) {
       surface = std::move(simplified);
       return report;
     }
   }
-  const DecimateReport report = decimate_boundary(surface, topology, locked, options, job);
+  const DecimateReport report = decimate(surface, options);
   refuse_crossing(surface, index_base, job);
   return report;
 }

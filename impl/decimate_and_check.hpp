@@ -1,12 +1,28 @@
 // 3.2  Decimation of the boundary, fast where nothing speaks against it: crossings are looked for afterwards.
 #pragma once
+#include <functional>
+
 #include "decimate_boundary.hpp"
 
 namespace tetlod {
 
-/// As decimate_boundary; careful as far as it has to be. Throws Status::mesh_intersecting where the result crosses
-/// itself because the original does; its vertices are numbered from `index_base`.
-DecimateReport decimate_and_check(Surface &surface, const SurfaceTopology &topology, Span<const std::uint8_t> locked,
-                                  const DecimateOptions &options, std::int32_t index_base, Job &job);
+/// Decimates a surface like decimate_boundary.
+using Decimation = std::function<DecimateReport(Surface &surface, const DecimateOptions &options)>;
+
+/// Decimates by `decimate`, careful as far as it has to be. `topology` is the surface's own. Throws
+/// Status::mesh_intersecting where the result crosses itself because the original does; its vertices are numbered from
+/// `index_base`.
+DecimateReport decimate_and_check(Surface &surface, const SurfaceTopology &topology, const DecimateOptions &options,
+                                  std::int32_t index_base, Job &job, const Decimation &decimate);
+
+/// By decimate_boundary itself.
+inline DecimateReport decimate_and_check(Surface &surface, const SurfaceTopology &topology,
+                                         Span<const std::uint8_t> locked, const DecimateOptions &options,
+                                         std::int32_t index_base, Job &job) {
+  const auto decimate = [&](Surface &of, const DecimateOptions &way) {
+    return decimate_boundary(of, topology, locked, way, job);
+  };
+  return decimate_and_check(surface, topology, options, index_base, job, decimate);
+}
 
 }  // namespace tetlod

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "collapse_log.hpp"
 #include "collapse_rules.hpp"
 #include "deviation.hpp"
 #include "edge_queue.hpp"
@@ -32,10 +33,11 @@ auto &at(T &array, OpenMesh::BaseHandle handle) {
 class Decimator {
  public:
   Decimator(const Surface &surface, const SurfaceTopology &topology, Span<const std::uint8_t> locked,
-            const DecimateOptions &options, Job &job)
+            const DecimateOptions &options, CollapseLog &log, Job &job)
       : surface_(surface),
         careful_(options.careful),
         job_(job),
+        log_(log),
         lambda_(options.lambda),
         charge_(job.memory, openmesh_bytes_a_triangle * surface.triangles.size()),
         queue_(3 * surface.triangles.size() / 2, job.memory) {
@@ -71,21 +73,8 @@ class Decimator {
 
   /// What is left, the cut welded again.
   void write(Surface &out) const {
-    Array<std::int32_t> number(surface_.points.size(), -1, &job_.memory);
-    for (auto f = mesh_.faces_sbegin(); f != mesh_.faces_end(); ++f) {
-      Triangle renumbered{};
-      for (std::size_t k = 0; k < 3; k++) {
-        const std::int32_t v = at(triangle_, *f)[k], id = id_[std::size_t(v)];
-        if (number[std::size_t(id)] < 0) {
-          number[std::size_t(id)] = std::int32_t(out.points.size());
-          out.points.push_back(point_[std::size_t(v)]);
-          out.scalars.push_back(scalar_[std::size_t(v)]);
-          out.origin.push_back(origin_[std::size_t(v)]);
-        }
-        renumbered[k] = number[std::size_t(id)];
-      }
-      out.triangles.push_back(renumbered);
-    }
+    for (auto f = mesh_.faces_sbegin(); f != mesh_.faces_end(); ++f) out.triangles.push_back(at(triangle_, *f));
+    weld({point_, scalar_, origin_, id_}, surface_.points.size(), job_, out);
   }
 
  private:
@@ -300,6 +289,7 @@ class Decimator {
   void collapse(HalfedgeHandle h, const Placement &placement) {
     const VertexHandle from = mesh_.from_vertex_handle(h), to = mesh_.to_vertex_handle(h);
     const HalfedgeHandle o = mesh_.opposite_halfedge_handle(h);
+    log_.collapses.push_back({from.idx(), to.idx(), !at(locked_, to), placement.point, placement.scalar});
     if (!at(locked_, to)) {
       at(scalar_, to) = placement.scalar;
       at(point_, to) = placement.point;
@@ -352,6 +342,7 @@ class Decimator {
   const Surface &surface_;
   bool careful_;
   Job &job_;
+  CollapseLog &log_;
   double lambda_;
   bool by_length_ = false;
   std::int64_t edges_ = 0, edges_in_tree_ = 0;
@@ -377,15 +368,16 @@ class Decimator {
 }  // namespace
 
 DecimateReport decimate_boundary(Surface &surface, const SurfaceTopology &topology, Span<const std::uint8_t> locked,
-                                 const DecimateOptions &options, Job &job) {
-  Decimator decimator(surface, topology, locked, options, job);
+                                 const DecimateOptions &options, Job &job, CollapseLog &log) {
+  Decimator decimator(surface, topology, locked, options, log, job);
   DecimateReport report;
   report.edges_in = decimator.edges();
-  const auto target = std::int64_t(std::ceil(options.sigma * double(report.edges_in)));
+  const std::int64_t target = edges_kept(options.sigma, report.edges_in);
   if (options.clean_edges > 0) decimator.collapse_until(0, options.clean_edges * box_of(surface.points).diagonal());
-  report.cleaned_edges = (report.edges_in - decimator.edges()) / 3;
+  report.cleaned_edges = log.cleaned = std::int64_t(log.collapses.size());
   decimator.collapse_until(target, 0);
   report.edges_out = decimator.edges();
+  log.exhausted = report.edges_out > target;
   Surface simplified(job.memory);
   decimator.write(simplified);
   report.deviation = largest_deviation(surface, simplified, job);

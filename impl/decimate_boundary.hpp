@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 
+#include "collapse_log.hpp"
 #include "job.hpp"
 #include "mesh.hpp"
 #include "surface_topology.hpp"
@@ -26,8 +27,15 @@ struct DecimateReport {
 /// `topology` is the surface's own. Collapses edges of `surface`, lowest cost first, until at most sigma of its edges
 /// are left or no collapse is admissible, that is, breaks no rule and goes no further than max_deviation. Points with
 /// locked[i] != 0 (empty: none), and points where the surface touches itself, stay. What is handed back is closed, of
-/// the same topology, and crosses itself nowhere that the input did not.
+/// the same topology, and crosses itself nowhere that the input did not. `log`, empty
+/// before, gets what was done.
 DecimateReport decimate_boundary(Surface &surface, const SurfaceTopology &topology, Span<const std::uint8_t> locked,
-                                 const DecimateOptions &options, Job &job);
+                                 const DecimateOptions &options, Job &job, CollapseLog &log);
+/// The same without a log.
+inline DecimateReport decimate_boundary(Surface &surface, const SurfaceTopology &topology,
+                                        Span<const std::uint8_t> locked, const DecimateOptions &options, Job &job) {
+  CollapseLog log(job.memory);
+  return decimate_boundary(surface, topology, locked, options, job, log);
+}
 
 }  // namespace tetlod

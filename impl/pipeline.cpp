@@ -5,15 +5,13 @@
 #include "budget.hpp"
 #include "carry_fields.hpp"
 #include "cull_samples.hpp"
-#include "decimate_and_check.hpp"
-#include "extract_boundary.hpp"
 #include "find_crossing.hpp"
 #include "footprint.hpp"
 #include "geometry.hpp"
 #include "hash.hpp"
 #include "interpolate.hpp"
 #include "place_probes.hpp"
-#include "prepare.hpp"
+#include "prepared.hpp"
 #include "refine.hpp"
 #include "sample_interior.hpp"
 #include "sample_residual.hpp"
@@ -41,8 +39,14 @@ class StageTimer {
 
 class Pipeline {
  public:
-  Pipeline(const Input &input, const Options &options, Job &job, Result &result)
-      : input_(input), options_(options), job_(job), result_(result), mesh_(result.mesh), report_(result.report) {}
+  Pipeline(const Input &input, const Options &options, Prepared &prepared, Job &job, Result &result)
+      : input_(input),
+        options_(options),
+        prepared_(prepared),
+        job_(job),
+        result_(result),
+        mesh_(result.mesh),
+        report_(result.report) {}
 
   /// What needs neither decimation nor remeshing.
   void begin() {
@@ -189,17 +193,17 @@ class Pipeline {
 
   /// Too dear to be looked for when nothing is wrong. Of the original, whose vertices have names.
   void refuse_overlapping_solids() {
-    Surface surface(job_.memory);
-    make_surface(original_.view, boundary_.triangles, job_, surface);
-    SurfaceTopology topology(job_.memory);
-    find_topology(surface.points, surface.triangles, job_, topology);
-    refuse_nested_solids(surface, topology, input_.index_base, job_);
+    refuse_nested_solids(prepared_.surface(job_), prepared_.topology(job_), input_.index_base, job_);
   }
 
   void prepare() {
     const StageTimer timer(Stage::prepare, job_, report_);
-    if (any_strict_policy(options_)) refuse_defects(find_defects(input_, options_, job_), options_);
-    prepare_original(input_, options_, job_, original_);
+    if (prepared_.renew(input_, options_, job_)) {
+      report_.reused_tets = input_.tets.tuples;
+    } else {
+      if (any_strict_policy(options_)) refuse_defects(find_defects(input_, options_, job_), options_);
+      prepare_original(input_, options_, job_, original_);
+    }
     report_.points_in = input_.xyz[0].tuples;
     report_.tets_in = input_.tets.tuples;
     report_.merged_points = original_.merged_points;
@@ -211,7 +215,8 @@ class Pipeline {
 
   void extract() {
     const StageTimer timer(Stage::boundary, job_, report_);
-    extract_boundary(original_.view, job_, boundary_);
+    if (!report_.reused_tets) extract_boundary(original_.view, job_, boundary_);
+    prepared_.complete();
     report_.dropped_tets += boundary_.flat_tets + boundary_.duplicate_tets;
     report_.unused_points = boundary_.unused_points - report_.merged_points - report_.nonfinite_points;
     report_.interior_points_in = std::int64_t(boundary_.interior.size());
@@ -220,10 +225,8 @@ class Pipeline {
 
   void decimate(double sigma) {
     const StageTimer timer(Stage::decimate, job_, report_);
-    Surface surface(job_.memory);
-    make_surface(original_.view, boundary_.triangles, job_, surface);
-    SurfaceTopology topology(job_.memory);
-    find_topology(surface.points, surface.triangles, job_, topology);
+    const Surface &surface = prepared_.surface(job_);
+    const SurfaceTopology &topology = prepared_.topology(job_);
     report_.boundary_points_in = topology.used_points;
     report_.boundary_edges_in = topology.edges;
     report_.components = topology.components;
@@ -233,23 +236,15 @@ class Pipeline {
     const double weight = as_published(options_) || !(range > 0) ? 0 : field_weight_of(report_) * diagonal / range;
     const DecimateOptions options{sigma, options_.lambda, options_.clean_edges, options_.max_deviation * diagonal,
                                   weight};
-    const DecimateReport decimated =
-        decimate_and_check(surface, topology, flags_of(surface), options, input_.index_base, job_);
+    const Prepared::Decimated decimated = prepared_.decimate(options, input_.index_base, job_, surface_);
     report_.cleaned_edges = decimated.cleaned_edges;
     report_.max_deviation = decimated.deviation / diagonal;
-    surface_ = std::move(surface);
     topology_ = SurfaceTopology(job_.memory);
     find_topology(surface_.points, surface_.triangles, job_, topology_);
     report_.boundary_points_out = topology_.used_points;
     report_.boundary_edges_out = topology_.edges;
     report_.boundary_triangles_out = std::int64_t(surface_.triangles.size());
-  }
-
-  Array<std::uint8_t> flags_of(const Surface &surface) const {
-    Array<std::uint8_t> flags(&job_.memory);
-    if (original_.flags.empty()) return flags;
-    for (std::int32_t v : surface.origin) flags.push_back(original_.flags[std::size_t(v)]);
-    return flags;
+    report_.reused_triangles = decimated.reused ? report_.boundary_triangles_out : 0;
   }
 
   Array<std::uint8_t> flags_of_result() const {
@@ -273,7 +268,8 @@ class Pipeline {
     const StageTimer timer(Stage::sample, job_, report_);
     if (!as_published(options_)) return sample_where_not_linear();
     const double variation = options_.rho * (original_.scalar_max - original_.scalar_min);
-    sample_interior(original_.view, {boundary_.interior.data(), boundary_.interior.size()}, variation, job_, selected_);
+    Array<std::int32_t> vertices(boundary_.interior, &job_.memory);  // which sampling sorts
+    sample_interior(original_.view, {vertices.data(), vertices.size()}, variation, job_, selected_);
     if (!original_.flags.empty()) add_flagged(original_.flags, boundary_.interior, selected_);
     report_.selected_samples = std::int64_t(selected_.size());
   }
@@ -298,10 +294,12 @@ class Pipeline {
     const double diagonal = box_of(surface_.points).diagonal();
     const double least = as_published(options_) ? options_.min_distance * diagonal : 0;
     samples_ = selected_;
+    const Span<std::uint8_t> known = prepared_.verdicts(least, options_.boundary_leaf, job_.memory);
     const CullReport culled = cull_samples(original_.view.points, surface_, topology_, least, options_.boundary_leaf,
-                                           job_, samples_, original_.flags);
+                                           job_, samples_, original_.flags, known);
     report_.samples_outside = culled.outside;
     report_.samples_too_near = culled.too_near;
+    report_.reused_samples = culled.known;
   }
 
   void remesh(Worker &worker) {
@@ -357,14 +355,15 @@ class Pipeline {
 
   const Input &input_;
   const Options &options_;
+  Prepared &prepared_;
   Job &job_;
   Result &result_;
   TetMesh &mesh_;
   Report &report_;
   Budget budget_;
   std::string failure_;  // of the last remeshing
-  Original original_{job_.memory};
-  Boundary boundary_{job_.memory};
+  Original &original_{prepared_.original};
+  Boundary &boundary_{prepared_.boundary};
   Surface surface_{job_.memory};                // the simplified boundary
   SurfaceTopology topology_{job_.memory};       // of the simplified boundary
   Array<std::int32_t> selected_{&job_.memory};  // by sampling
@@ -375,8 +374,13 @@ class Pipeline {
 }  // namespace
 
 void run(const Input &input, const Options &options, Worker &worker, Job &job, Result &result) {
+  Prepared prepared(job.memory);
+  run(input, options, worker, prepared, job, result);
+}
+
+void run(const Input &input, const Options &options, Worker &worker, Prepared &prepared, Job &job, Result &result) {
   const auto begin = std::chrono::steady_clock::now();
-  Pipeline(input, options, job, result).run(worker);
+  Pipeline(input, options, prepared, job, result).run(worker);
   result.report.hash = hash_of(result.mesh);
   result.report.peak_bytes = job.memory.peak();
   result.report.seconds_total = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -385,7 +389,8 @@ void run(const Input &input, const Options &options, Worker &worker, Job &job, R
 std::uint64_t estimate_memory(const Input &input, const Options &options, Job &job) {
   job.memory.reset_peak();
   Result result(job.memory);
-  Pipeline pipeline(input, options, job, result);
+  Prepared prepared(job.memory);
+  Pipeline pipeline(input, options, prepared, job, result);
   pipeline.begin();
   const double in_use = double(job.memory.in_use());
   const double later = in_use + expected_bytes(pipeline.outlook(), input);

@@ -15,6 +15,8 @@
 
 namespace tetlod {
 
+class Prepared;
+
 /// What happens to a defect of the input that can be repaired. The numbers are those of the C ABI.
 constexpr std::int64_t policy_error = 0, policy_repair = 1;
 
@@ -90,6 +92,8 @@ struct Report {
   double scalar_min = 0, scalar_max = 0;
   double max_deviation = 0;  ///< between the boundaries, at the vertices of both, over the diagonal
   double max_error = 0;      ///< of a run with a target: at the original vertices, over the range
+  /// Taken over from earlier work: tets_in or 0, boundary_triangles_out or 0, and samples whose place was known.
+  std::int64_t reused_tets = 0, reused_triangles = 0, reused_samples = 0;
 };
 
 /// A field of the result: a tuple a point or a tet.
@@ -112,6 +116,9 @@ struct Result {
 
 /// Simplifies; throws Error. `result` is meant to be a fresh one: after a throw its contents mean nothing.
 void run(const Input &input, const Options &options, Worker &worker, Job &job, Result &result);
+
+/// The same, with what `prepared` has of earlier runs; leaves there what later ones may use, also after a throw.
+void run(const Input &input, const Options &options, Worker &worker, Prepared &prepared, Job &job, Result &result);
 
 /// What Report::peak_bytes of such a run would be, within a factor of 1.5 for sound meshes. Does the run's first
 /// stages, the cheap ones, and knows of the others what they take.

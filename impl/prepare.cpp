@@ -225,7 +225,8 @@ void prepare_original(const Input &input, const Options &options, Job &job, Orig
   original.view.points = read_points(input, job, original.points);
   original.view.scalars = read_scalars(input, job, original.scalars);
   original.view.tets = read_tets(input, job, original.tets);
-  Array<std::uint8_t> used = find_used(original.view.tets, original.view.points.size(), job);
+  Array<std::uint8_t> &used = original.used;
+  used = find_used(original.view.tets, original.view.points.size(), job);
   check_used_points(input, options, original, used);
   scale_extreme_coordinates(job, original);
 
@@ -239,6 +240,26 @@ void prepare_original(const Input &input, const Options &options, Job &job, Orig
   if (original.view.tets.empty())
     fail(Status::mesh_empty, "none of the %lld tets has four different vertices with a value",
          static_cast<long long>(input.tets.tuples));
+}
+
+bool renew_values(const Input &input, Job &job, Original &original) {
+  if (original.nonfinite_points > 0 || input.scalars.tuples != input.xyz[0].tuples) return false;
+  const auto points = std::size_t(input.xyz[0].tuples), tets = std::size_t(input.tets.tuples);
+  if (original.points.empty()) original.view.points = {reinterpret_cast<const Vec3 *>(input.xyz[0].data), points};
+  if (original.tets.empty()) original.view.tets = {reinterpret_cast<const Tet *>(input.tets.data), tets};
+  original.view.scalars = read_scalars(input, job, original.scalars);
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (std::size_t v = 0; v < points; v++) {
+    if (v % block == 0) job.poll(0.5);
+    if (!original.used[v]) continue;
+    const double value = original.view.scalars[v];
+    if (!std::isfinite(value)) return false;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  original.scalar_min = low;
+  original.scalar_max = high;
+  return true;
 }
 
 }  // namespace tetlod

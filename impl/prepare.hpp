@@ -11,13 +11,14 @@ namespace tetlod {
 /// The original mesh; the caller's own arrays where their layout allows, copies where not.
 struct Original {
   explicit Original(Memory &memory)
-      : points(&memory), scalars(&memory), tets(&memory), tet_number(&memory), flags(&memory) {}
+      : points(&memory), scalars(&memory), tets(&memory), tet_number(&memory), flags(&memory), used(&memory) {}
   MeshView view;
   Array<Vec3> points;
   Array<double> scalars;
   Array<Tet> tets;
   Array<std::int32_t> tet_number;     ///< of each tet among the submitted ones; empty: none was dropped
   Array<std::uint8_t> flags;          ///< of each vertex, those of points that became it included; empty: none are set
+  Array<std::uint8_t> used;           ///< of each submitted point: a tet has it, and its coordinates are finite
   std::int64_t merged_points = 0;     ///< coincident points that became one
   std::int64_t nonfinite_points = 0;  ///< without a finite value, ignored with their tets
   std::int64_t dropped_tets = 0;      ///< with such a point, or with a repeated vertex, as submitted or after merging
@@ -34,5 +35,9 @@ int extreme_exponent(const Box &box);
 /// Throws Status::argument (as many values and flags as points), mesh_empty, mesh_index, mesh_nonfinite,
 /// mesh_too_large.
 void prepare_original(const Input &input, const Options &options, Job &job, Original &original);
+
+/// The same of a mesh whose points, tets, flags and options are what they were, and other values. False: it takes
+/// prepare_original, because the values change what the mesh is, or are none.
+bool renew_values(const Input &input, Job &job, Original &original);
 
 }  // namespace tetlod

@@ -119,6 +119,9 @@ module tetlod_types
     integer(c_int64_t) :: inserted_points = 0
     real(c_double) :: max_error = 0
     real(c_double) :: max_deviation = 0
+    integer(c_int64_t) :: reused_tets = 0
+    integer(c_int64_t) :: reused_triangles = 0
+    integer(c_int64_t) :: reused_samples = 0
   end type
 
   ! The field error of the last result, relative to the range of the original's values.

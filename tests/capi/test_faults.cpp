@@ -15,12 +15,13 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
-/// A context with a result of one mesh, about to run another.
+/// A context with a result of one mesh, and nothing kept beside, about to run another.
 struct Rerun {
   explicit Rerun(tetlod_config config, int cells = 2) : second(cells), context(make_context(config)) {
     submit(context.get(), first);
     EXPECT_EQ(tetlod_run(context.get()), TETLOD_OK) << message_of(context.get());
     kept = bytes_of(context.get());
+    EXPECT_EQ(tetlod_clear(context.get()), TETLOD_OK);
     submit(context.get(), second);
   }
   Cube first{3}, second;

@@ -7,10 +7,16 @@ namespace {
 TEST_F(Fields, EveryHookedAllocation) {
   const auto field = field_of(cube, 2, bent);
   std::vector<double> cells(tets(), 4);
-  ASSERT_EQ(carry("bent", field, 2), TETLOD_OK);
-  ASSERT_EQ(carry("cells", cells, 1, TETLOD_CELL_FIELD), TETLOD_OK);
+  const auto submit_all = [&] {
+    submit(context.get(), cube);
+    ASSERT_EQ(carry("bent", field, 2), TETLOD_OK);
+    ASSERT_EQ(carry("cells", cells, 1, TETLOD_CELL_FIELD), TETLOD_OK);
+  };
+  submit_all();
   run();
   const auto kept = fetch("bent", 2, points_out());
+  ASSERT_EQ(tetlod_clear(context.get()), TETLOD_OK);  // of the mesh nothing is kept then
+  submit_all();
   const std::size_t before = allocator.in_use();
   bool failed = true;
   for (long n = 0; failed && n < 100000; n++) {
@@ -19,7 +25,9 @@ TEST_F(Fields, EveryHookedAllocation) {
     failed = allocator.failed();
     allocator.forget_failure();
     ASSERT_EQ(status, failed ? TETLOD_ERR_MEMORY : TETLOD_OK) << n << ": " << message_of(context.get());
-    ASSERT_EQ(allocator.in_use(), before) << n;
+    if (failed) {
+      ASSERT_EQ(allocator.in_use(), before) << n;
+    }
     ASSERT_EQ(fetch("bent", 2, points_out()), kept) << n;
   }
 }

@@ -1,0 +1,135 @@
+#include "prepared.hpp"
+
+#include "decimate_and_check.hpp"
+#include "deviation.hpp"
+
+namespace tetlod {
+
+namespace {
+
+Fingerprint stamp_of(const Input &input, const Options &options, Job &job) {
+  Fingerprint stamp;
+  for (const StridedArray &coordinate : input.xyz) stamp.add(coordinate, job);
+  stamp.add(input.tets, job);
+  stamp.add(input.flags, job);
+  stamp.add(std::uint64_t(input.index_base));
+  stamp.add(options.merge_tolerance);
+  for (const std::int64_t policy : {options.on_coincident, options.on_repeated, options.on_flat, options.on_inverted,
+                                    options.on_duplicate, options.on_overlap, options.on_unused, options.on_nonfinite})
+    stamp.add(std::uint64_t(policy));
+  return stamp;
+}
+
+/// Of what a cost that sees the field depends on; of nothing, for the paper's.
+Fingerprint fingerprint_of(Span<const double> values, double field_weight) {
+  Fingerprint fingerprint;
+  if (field_weight > 0)
+    for (double value : values) fingerprint.add(value);
+  return fingerprint;
+}
+
+}  // namespace
+
+bool Prepared::holds(const Input &input, const Options &options, Job &job) {
+  return filled_ && stamp_of(input, options, job) == stamp_ && renew_values(input, job, original);
+}
+
+bool Prepared::renew(const Input &input, const Options &options, Job &job) {
+  if (holds(input, options, job)) return true;
+  forget(job.memory);
+  stamp_ = stamp_of(input, options, job);
+  return false;
+}
+
+void Prepared::prepare_surface(Job &job) {
+  if (!has_surface_) {
+    Surface surface(job.memory);
+    make_surface(original.view, boundary.triangles, job, surface);
+    SurfaceTopology topology(job.memory);
+    find_topology(surface.points, surface.triangles, job, topology);
+    surface_ = std::move(surface);
+    topology_ = std::move(topology);
+    has_surface_ = true;
+  }
+  for (std::size_t i = 0; i < surface_.origin.size(); i++)
+    surface_.scalars[i] = original.view.scalars[std::size_t(surface_.origin[i])];
+}
+
+const Surface &Prepared::surface(Job &job) {
+  prepare_surface(job);
+  return surface_;
+}
+
+const SurfaceTopology &Prepared::topology(Job &job) {
+  prepare_surface(job);
+  return topology_;
+}
+
+Array<std::uint8_t> Prepared::flags_of_surface(Job &job) const {
+  Array<std::uint8_t> flags(&job.memory);
+  if (original.flags.empty()) return flags;
+  for (std::int32_t v : surface_.origin) flags.push_back(original.flags[std::size_t(v)]);
+  return flags;
+}
+
+bool Prepared::Logged::holds(const DecimateOptions &of, const Fingerprint &of_values) const {
+  return filled && of.lambda == options.lambda && of.clean_edges == options.clean_edges &&
+         of.max_deviation == options.max_deviation && of.field_weight == options.field_weight && of_values == values;
+}
+
+DecimateReport Prepared::decimate_logged(const DecimateOptions &options, Span<const std::uint8_t> flags, Job &job,
+                                         Surface &surface, bool &reused) {
+  Logged &logged = options.careful ? careful_ : careless_;
+  const Fingerprint values = fingerprint_of(surface_.scalars, options.field_weight);
+  DecimateReport report;
+  report.edges_in = std::int64_t(topology_.mate.size() / 2);
+  const std::int64_t count =
+      logged.holds(options, values) ? collapses_to(options.sigma, report.edges_in, logged.log) : -1;
+  reused = count >= 0;
+  if (reused) {
+    const Values way = options.field_weight > 0 ? Values::logged : Values::along_edges;
+    replay(logged.log, std::size_t(count), topology_, way, job, surface);
+    if (logged.measured != count) logged.deviation = largest_deviation(surface_, surface, job);
+    logged.measured = count;
+    report.cleaned_edges = logged.log.cleaned;
+    report.edges_out = report.edges_in - 3 * count;
+    report.deviation = logged.deviation;
+  } else {
+    verdicts_way_ = {};
+    Logged fresh(job.memory);
+    report = decimate_boundary(surface, topology_, flags, options, job, fresh.log);
+    fresh.measured = std::int64_t(fresh.log.collapses.size());
+    fresh.deviation = report.deviation;
+    fresh.options = options;
+    fresh.values = values;
+    fresh.filled = true;
+    logged = std::move(fresh);
+  }
+  last_ = {options.careful, logged.measured};
+  return report;
+}
+
+Prepared::Decimated Prepared::decimate(const DecimateOptions &options, std::int32_t index_base, Job &job,
+                                       Surface &out) {
+  prepare_surface(job);
+  out = surface_;
+  bool reused = false;
+  const Array<std::uint8_t> flags = flags_of_surface(job);
+  const auto decimate = [&](Surface &surface, const DecimateOptions &way) {
+    return decimate_logged(way, flags, job, surface, reused);
+  };
+  const DecimateReport report = decimate_and_check(out, topology_, options, index_base, job, decimate);
+  return {report.cleaned_edges, report.deviation, reused};
+}
+
+Span<std::uint8_t> Prepared::verdicts(double least_distance, std::int64_t leaf, Memory &memory) {
+  if (verdicts_way_ != last_ || verdicts_distance_ != least_distance || verdicts_leaf_ != leaf) {
+    verdicts_ = Array<std::uint8_t>(original.view.points.size(), 0, &memory);
+    verdicts_way_ = last_;
+    verdicts_distance_ = least_distance;
+    verdicts_leaf_ = leaf;
+  }
+  return {verdicts_.data(), verdicts_.size()};
+}
+
+}  // namespace tetlod

@@ -1,0 +1,97 @@
+// What runs of one mesh have in common, kept from each for the next. A rule for each part says what it depends on:
+//   original, boundary, surface, topology   points, tets, flags, merge-tolerance, policies (the stamp), while all
+//   values
+//                                           are finite
+//   the decimation                          that, lambda, clean-edges, max-deviation, and the field if its cost sees it
+//   verdicts                                that, how far the decimation went, min-distance, boundary-leaf
+// What it depends on is compared by fingerprints, so that arrays may be changed in place, or submitted anew unchanged.
+// Whatever is taken over has the bytes that a run without it would make.
+#pragma once
+#include <cstdint>
+
+#include "decimate_boundary.hpp"
+#include "extract_boundary.hpp"
+#include "fingerprint.hpp"
+#include "pipeline.hpp"
+#include "prepare.hpp"
+#include "surface_topology.hpp"
+
+namespace tetlod {
+
+class Prepared {
+ public:
+  explicit Prepared(Memory &memory)
+      : original(memory),
+        boundary(memory),
+        surface_(memory),
+        topology_(memory),
+        careless_(memory),
+        careful_(memory),
+        verdicts_(&memory) {}
+
+  Original original;
+  Boundary boundary;
+
+  /// True: original (with the input's values) and boundary are those of the input. False: both are empty, to be filled;
+  /// then say complete().
+  bool renew(const Input &input, const Options &options, Job &job);
+  /// The same, but if false, what is there stays.
+  bool holds(const Input &input, const Options &options, Job &job);
+  void complete() { filled_ = true; }
+  void forget(Memory &memory) { *this = Prepared(memory); }
+  bool empty() const { return !filled_; }
+
+  /// The boundary with its values, and how it hangs together.
+  const Surface &surface(Job &job);
+  const SurfaceTopology &topology(Job &job);
+
+  struct Decimated {
+    std::int64_t cleaned_edges = 0;
+    double deviation = 0;  ///< as in DecimateReport
+    bool reused = false;   ///< no cost was computed
+  };
+  /// surface(), decimated, which crosses itself nowhere. Throws Status::mesh_intersecting, with vertices numbered from
+  /// index_base.
+  Decimated decimate(const DecimateOptions &options, std::int32_t index_base, Job &job, Surface &out);
+
+  /// Of each original vertex, what culling with these found of it at the last decimated surface.
+  Span<std::uint8_t> verdicts(double least_distance, std::int64_t leaf, Memory &memory);
+
+ private:
+  void prepare_surface(Job &job);
+  DecimateReport decimate_logged(const DecimateOptions &options, Span<const std::uint8_t> flags, Job &job,
+                                 Surface &surface, bool &reused);
+  Array<std::uint8_t> flags_of_surface(Job &job) const;
+
+  /// A decimation with its log; careful or not they are different ones.
+  struct Logged {
+    explicit Logged(Memory &memory) : log(memory) {}
+    bool holds(const DecimateOptions &of, const Fingerprint &of_values) const;
+    bool filled = false;
+    CollapseLog log;
+    DecimateOptions options;
+    Fingerprint values;
+    std::int64_t measured = -1;  // so many collapses give
+    double deviation = 0;        // this
+  };
+
+  /// Which decimated surface.
+  struct Way {
+    bool careful = false;
+    std::int64_t collapses = -1;
+    bool operator!=(const Way &other) const { return careful != other.careful || collapses != other.collapses; }
+  };
+
+  bool filled_ = false, has_surface_ = false;
+  Fingerprint stamp_;
+  Surface surface_;
+  SurfaceTopology topology_;
+  Logged careless_, careful_;
+  Way last_;
+  Array<std::uint8_t> verdicts_;
+  double verdicts_distance_ = 0;
+  std::int64_t verdicts_leaf_ = 0;
+  Way verdicts_way_;
+};
+
+}  // namespace tetlod

@@ -1,0 +1,135 @@
+// What a context takes over from its earlier runs is worth: new values on the same mesh, and levels of detail.
+//
+//     tetlod_reuse FILE [PRESET...]        paper, fast, accurate
+//
+// Seconds are the library's own (tetlod_run_report), those of the worker process included. Every reused result is
+// compared with that of a context of its own.
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "bench_mesh.hpp"
+#include "tetlod.h"
+
+namespace {
+
+struct Destroy {
+  void operator()(tetlod_context *context) const { tetlod_destroy(context); }
+};
+using Context = std::unique_ptr<tetlod_context, Destroy>;
+
+void check(tetlod_status status, const tetlod_context *context) {
+  if (status == TETLOD_OK) return;
+  char message[512] = "";
+  tetlod_last_message(context, message, sizeof message);
+  throw std::runtime_error(message);
+}
+
+tetlod_array lent(std::int32_t type, std::size_t tuples, std::int32_t components, const void *data) {
+  tetlod_array array{};
+  array.struct_size = sizeof array;
+  array.type = type;
+  array.tuples = static_cast<std::int64_t>(tuples);
+  array.components = components;
+  array.data = const_cast<void *>(data);
+  return array;
+}
+
+Context make_context(const bench::Mesh &mesh) {
+  tetlod_context *made = nullptr;
+  check(tetlod_create(nullptr, &made), nullptr);
+  Context context(made);
+  const tetlod_array points = lent(TETLOD_FLOAT64, mesh.points.size(), 3, mesh.points.data());
+  const tetlod_array tets = lent(TETLOD_INT32, mesh.tets.size(), 4, mesh.tets.data());
+  const tetlod_array values = lent(TETLOD_FLOAT64, mesh.values.size(), 1, mesh.values.data());
+  check(tetlod_submit_points(made, &points), made);
+  check(tetlod_submit_tets(made, &tets, 0), made);
+  check(tetlod_submit_scalars(made, "scalar", &values), made);
+  return context;
+}
+
+// How much is kept: a part of the tets, or with the paper's preset of the boundary's edges.
+void set_level(tetlod_context *context, const std::string &preset, double part) {
+  if (preset == "paper") {
+    check(tetlod_set_preset(context, TETLOD_PRESET_PAPER), context);
+    check(tetlod_set_sigma(context, part), context);
+    return;
+  }
+  check(tetlod_set_preset(context, preset == "fast" ? TETLOD_PRESET_FAST : TETLOD_PRESET_ACCURATE), context);
+  check(tetlod_set_real(context, TETLOD_OPT_TARGET_RATIO, part), context);
+}
+
+tetlod_run_report run(tetlod_context *context) {
+  check(tetlod_run(context), context);
+  tetlod_run_report report{};
+  report.struct_size = sizeof report;
+  check(tetlod_fetch_report(context, &report), context);
+  return report;
+}
+
+// The same result by a context that has had no run; its seconds.
+double fresh_seconds(const bench::Mesh &mesh, const std::string &preset, double part, const tetlod_run_report &reused) {
+  const Context context = make_context(mesh);
+  set_level(context.get(), preset, part);
+  const tetlod_run_report report = run(context.get());
+  if (report.hash != reused.hash) throw std::runtime_error("a reused run gave other bytes");
+  return report.seconds_total;
+}
+
+// As a front that moves changes them.
+void change_values(bench::Mesh &mesh, int step) {
+  const double range = bench::range_of(mesh.values);
+  for (std::size_t v = 0; v < mesh.values.size(); v++)
+    mesh.values[v] += 0.02 * range * std::sin(3 * mesh.points[v][0] + mesh.points[v][1] + step);
+}
+
+void measure_steps(bench::Mesh mesh, const std::string &preset) {
+  const Context context = make_context(mesh);
+  set_level(context.get(), preset, 0.1);
+  run(context.get());
+  for (int step = 1; step <= 3; step++) {
+    change_values(mesh, step);
+    const tetlod_run_report report = run(context.get());
+    const double fresh = fresh_seconds(mesh, preset, 0.1, report);
+    std::printf("%-9s new values: %.2f s, %.2f s without reuse: %.2f x\n", preset.c_str(), report.seconds_total, fresh,
+                report.seconds_total / fresh);
+  }
+}
+
+// The coarsest first: its decimation is that of the others, carried on.
+void measure_levels(const bench::Mesh &mesh, const std::string &preset) {
+  const Context context = make_context(mesh);
+  double reused = 0, fresh = 0;
+  for (double part : {0.02, 0.05, 0.1, 0.2, 0.5}) {
+    set_level(context.get(), preset, part);
+    const tetlod_run_report report = run(context.get());
+    reused += report.seconds_total;
+    fresh += fresh_seconds(mesh, preset, part, report);
+  }
+  std::printf("%-9s levels 2, 5, 10, 20, 50 %%: %.2f s, %.2f s without reuse: %.2f x\n", preset.c_str(), reused, fresh,
+              reused / fresh);
+}
+
+}  // namespace
+
+int main(int argc, char **argv) {
+  if (argc < 2) {
+    std::fprintf(stderr, "usage: tetlod_reuse FILE [PRESET...]\n");
+    return 2;
+  }
+  try {
+    const bench::Mesh mesh = bench::read_mesh(argv[1]);
+    for (int i = 2; i < argc || i == 2; i++) {
+      const std::string preset = argc > 2 ? argv[i] : "paper";
+      measure_steps(mesh, preset);
+      measure_levels(mesh, preset);
+    }
+    return 0;
+  } catch (const std::exception &error) {
+    std::fprintf(stderr, "tetlod_reuse: %s\n", error.what());
+    return 1;
+  }
+}

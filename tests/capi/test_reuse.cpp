@@ -1,0 +1,236 @@
+// Step after step: what a context takes over from its earlier runs shows in the report and in the clock, and nowhere in
+// the bytes of a result.
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "fixtures.hpp"
+
+namespace tetlod_test {
+namespace {
+
+tetlod_run_report report_of(const tetlod_context *context) {
+  tetlod_run_report report{};
+  report.struct_size = sizeof report;
+  EXPECT_EQ(tetlod_fetch_report(context, &report), TETLOD_OK);
+  return report;
+}
+
+class Reuse : public testing::Test {
+ protected:
+  Cube cube{8};
+  std::vector<std::uint8_t> flags;
+  Context context = make_context();
+  std::vector<std::function<void(tetlod_context *)>> options;
+
+  void set_up(tetlod_context *of) {
+    tetlod_set_sigma(of, 0.3);
+    tetlod_set_rho(of, 0.1);
+    for (const auto &option : options) option(of);
+    submit(of, cube);
+    if (flags.empty()) return;
+    const tetlod_array array = array_of(TETLOD_UINT8, flags.size(), 1, flags.data());
+    EXPECT_EQ(tetlod_submit_point_flags(of, &array), TETLOD_OK);
+  }
+
+  /// A run of the context, which has had others, gives what a context that has had none gives.
+  tetlod_run_report expect_fresh_bytes() {
+    set_up(context.get());
+    const Context fresh = make_context();
+    set_up(fresh.get());
+    const tetlod_status status = tetlod_run(fresh.get());
+    EXPECT_EQ(tetlod_run(context.get()), status) << message_of(context.get());
+    if (status != TETLOD_OK) {
+      EXPECT_EQ(message_of(context.get()), message_of(fresh.get()));
+      return {};
+    }
+    EXPECT_EQ(bytes_of(context.get()), bytes_of(fresh.get()));
+    const tetlod_run_report again = report_of(context.get()), first = report_of(fresh.get());
+    EXPECT_EQ(first.reused_tets, 0);
+    expect_same_counts(again, first);
+    return again;
+  }
+
+  /// The report counts the same, from the original's points to the retries of the boundary.
+  static void expect_same_counts(const tetlod_run_report &a, const tetlod_run_report &b) {
+    for (const std::int64_t *x = &a.points_in, *y = &b.points_in; x <= &a.boundary_retries; x++, y++)
+      EXPECT_EQ(*x, *y) << "count " << x - &a.points_in;
+    EXPECT_EQ(a.hash, b.hash);
+    EXPECT_EQ(a.max_deviation, b.max_deviation);
+    EXPECT_EQ(a.max_error, b.max_error);
+    EXPECT_EQ(a.scalar_min, b.scalar_min);
+    EXPECT_EQ(a.scalar_max, b.scalar_max);
+  }
+
+  void new_values(double phase) {
+    for (std::size_t v = 0; v < cube.values.size(); v++)
+      cube.values[v] = std::sin(3 * cube.xyz[3 * v] + phase) + cube.xyz[3 * v + 1];
+  }
+
+  std::int64_t tets() const { return std::int64_t(cube.corners.size() / 4); }
+};
+
+TEST_F(Reuse, NewValuesTakeOverTheMeshAndItsDecimatedBoundary) {
+  tetlod_run_report report = expect_fresh_bytes();
+  EXPECT_EQ(report.reused_tets, 0);
+  EXPECT_EQ(report.reused_triangles, 0);
+  for (double phase : {0.0, 0.4, 0.8}) {
+    new_values(phase);
+    report = expect_fresh_bytes();
+    EXPECT_EQ(report.reused_tets, tets());
+    EXPECT_EQ(report.reused_triangles, report.boundary_triangles_out);
+  }
+  EXPECT_GT(report.reused_samples, 0);
+}
+
+/// In place, without a call: the library has to look.
+TEST_F(Reuse, AMeshThatMovesIsAnother) {
+  expect_fresh_bytes();
+  cube.xyz[3 * 400] += 0.01;
+  ASSERT_EQ(tetlod_run(context.get()), TETLOD_OK);
+  EXPECT_EQ(report_of(context.get()).reused_tets, 0);
+  EXPECT_EQ(bytes_of(context.get()), [&] {
+    const Context fresh = make_context();
+    set_up(fresh.get());
+    EXPECT_EQ(tetlod_run(fresh.get()), TETLOD_OK);
+    return bytes_of(fresh.get());
+  }());
+  std::swap(cube.corners[40], cube.corners[41]);
+  EXPECT_EQ(expect_fresh_bytes().reused_tets, 0);
+  EXPECT_EQ(expect_fresh_bytes().reused_tets, tets());
+}
+
+/// Another copy of the mesh is the same mesh, in memory of its own.
+TEST_F(Reuse, TheOldArraysMayGo) {
+  expect_fresh_bytes();
+  Cube other = cube;
+  std::swap(other.xyz, cube.xyz);
+  std::swap(other.corners, cube.corners);
+  std::fill(other.xyz.begin(), other.xyz.end(), 1e300);
+  std::fill(other.corners.begin(), other.corners.end(), -1);
+  new_values(1);
+  EXPECT_EQ(expect_fresh_bytes().reused_tets, tets());
+}
+
+TEST_F(Reuse, LevelsOfDetail) {
+  for (double sigma : {0.2, 0.5, 0.2, 0.9, 0.1, 0.3}) {
+    options.push_back([sigma](tetlod_context *of) { tetlod_set_sigma(of, sigma); });
+    const tetlod_run_report report = expect_fresh_bytes();
+    EXPECT_EQ(report.reused_triangles > 0, report.reused_tets > 0 && sigma != 0.1) << "as far as an earlier one went";
+  }
+}
+
+TEST_F(Reuse, OptionsOfTheBoundary) {
+  expect_fresh_bytes();
+  options.push_back([](tetlod_context *of) { tetlod_set_lambda(of, 0.5); });
+  EXPECT_EQ(expect_fresh_bytes().reused_triangles, 0);
+  EXPECT_GT(expect_fresh_bytes().reused_triangles, 0);
+  options.push_back([](tetlod_context *of) { tetlod_set_real(of, TETLOD_OPT_CLEAN_EDGES, 0.08); });
+  EXPECT_EQ(expect_fresh_bytes().reused_triangles, 0);
+  EXPECT_GT(expect_fresh_bytes().reused_triangles, 0);
+  options.push_back([](tetlod_context *of) { tetlod_set_real(of, TETLOD_OPT_MAX_DEVIATION, 0.02); });
+  EXPECT_EQ(expect_fresh_bytes().reused_triangles, 0);
+  EXPECT_GT(expect_fresh_bytes().reused_triangles, 0);
+  options.push_back([](tetlod_context *of) { tetlod_set_min_distance(of, 0.2); });
+  EXPECT_EQ(expect_fresh_bytes().reused_samples, 0);
+  EXPECT_GT(expect_fresh_bytes().reused_samples, 0);
+  options.push_back([](tetlod_context *of) { tetlod_set_real(of, TETLOD_OPT_MERGE_TOLERANCE, 1e-3); });
+  EXPECT_EQ(expect_fresh_bytes().reused_tets, 0);
+}
+
+TEST_F(Reuse, FlagsAreAPartOfTheMesh) {
+  expect_fresh_bytes();
+  flags.assign(cube.values.size(), 0);
+  EXPECT_EQ(expect_fresh_bytes().reused_tets, 0);
+  flags[364] = TETLOD_FLAG_KEEP;
+  EXPECT_EQ(expect_fresh_bytes().reused_tets, 0);
+  new_values(0.3);
+  EXPECT_EQ(expect_fresh_bytes().reused_tets, tets());
+}
+
+/// A cost that sees the field is another one for other values, and the same for other sizes.
+TEST_F(Reuse, TargetsOfTheSameValues) {
+  const auto target = [this](double ratio) {
+    options.push_back([ratio](tetlod_context *of) {
+      tetlod_set_real(of, TETLOD_OPT_TARGET_RATIO, ratio);
+      tetlod_set_int(of, TETLOD_OPT_EFFORT, TETLOD_EFFORT_FAST);
+    });
+  };
+  target(0.1);
+  expect_fresh_bytes();
+  for (double ratio : {0.2, 0.4}) {
+    target(ratio);
+    const tetlod_run_report report = expect_fresh_bytes();
+    EXPECT_EQ(report.reused_tets, tets());
+    EXPECT_GT(report.reused_triangles, 0) << ratio;
+  }
+  new_values(0.2);
+  const tetlod_run_report report = expect_fresh_bytes();
+  EXPECT_EQ(report.reused_tets, tets());
+}
+
+TEST_F(Reuse, ValuesThatAreNone) {
+  expect_fresh_bytes();
+  cube.values[77] = std::numeric_limits<double>::quiet_NaN();
+  expect_fresh_bytes();
+  options.push_back([](tetlod_context *of) { tetlod_set_int(of, TETLOD_OPT_ON_NONFINITE, TETLOD_POLICY_REPAIR); });
+  EXPECT_EQ(expect_fresh_bytes().reused_tets, 0);
+  cube.values[78] = cube.values[77];
+  EXPECT_EQ(expect_fresh_bytes().reused_tets, 0) << "other points are ignored";
+  new_values(0);
+  expect_fresh_bytes();
+  EXPECT_EQ(expect_fresh_bytes().reused_tets, tets());
+}
+
+/// Values, points and tets that have to be copied.
+TEST_F(Reuse, OtherLayouts) {
+  const std::size_t points = cube.values.size();
+  std::vector<float> values(cube.values.begin(), cube.values.end());
+  std::vector<std::int64_t> corners(cube.corners.begin(), cube.corners.end());
+  for (std::int64_t &v : corners) v++;
+  const tetlod_array scalars = array_of(TETLOD_FLOAT32, points, 1, values.data());
+  const tetlod_array tets_of = array_of(TETLOD_INT64, corners.size() / 4, 4, corners.data());
+  const auto run_in = [&](tetlod_context *in) {
+    set_up(in);
+    tetlod_submit_scalars(in, "float", &scalars);
+    tetlod_submit_tets(in, &tets_of, 1);
+    EXPECT_EQ(tetlod_run(in), TETLOD_OK) << message_of(in);
+    return bytes_of(in);
+  };
+  expect_fresh_bytes();
+  for (int step = 0; step < 3; step++) {
+    for (std::size_t v = 0; v < points; v++) values[v] += float(step) * float(cube.xyz[3 * v]);
+    const Context fresh = make_context();
+    EXPECT_EQ(run_in(context.get()), run_in(fresh.get()));
+    EXPECT_EQ(report_of(context.get()).reused_tets, step ? tets() : 0);
+  }
+}
+
+TEST_F(Reuse, ClearForgets) {
+  expect_fresh_bytes();
+  ASSERT_EQ(tetlod_clear(context.get()), TETLOD_OK);
+  EXPECT_EQ(expect_fresh_bytes().reused_tets, 0);
+}
+
+/// A run that finds no memory gives back what is kept, and tries again.
+TEST_F(Reuse, MemoryThatIsShort) {
+  CountingAllocator allocator;
+  context = make_context(allocator.config());
+  set_up(context.get());
+  ASSERT_EQ(tetlod_run(context.get()), TETLOD_OK);
+  const std::vector<unsigned char> wanted = bytes_of(context.get());
+  int failures = 0;
+  for (long allocation = 0; allocation < 200; allocation += 17) {
+    allocator.fail_after(allocation);
+    EXPECT_EQ(tetlod_run(context.get()), TETLOD_OK) << "after " << allocation << ": " << message_of(context.get());
+    EXPECT_EQ(bytes_of(context.get()), wanted);
+    EXPECT_EQ(report_of(context.get()).reused_tets, allocator.failed() ? 0 : tets());
+    failures += allocator.failed();
+    allocator.forget_failure();
+  }
+  EXPECT_GT(failures, 0);
+  expect_fresh_bytes();
+}
+
+}  // namespace
+}  // namespace tetlod_test
