@@ -1,0 +1,229 @@
+! Fields, stencils, transfers and point flags through the module tetlod: known answers on a generated mesh.
+module field_tests
+  use, intrinsic :: iso_fortran_env, only: int32, int64, int8, real32, real64
+  use box_mesh, only: make_box
+  use tetlod
+  implicit none
+  integer, parameter :: cells = 8
+  integer :: failures = 0
+  real(real64), allocatable, target :: xyz(:, :), values(:)
+  integer(int32), allocatable, target :: tets(:, :)
+
+contains
+
+  subroutine expect(holds, what)
+    logical, intent(in) :: holds
+    character(len=*), intent(in) :: what
+    if (holds) return
+    failures = failures + 1
+    print '("failed: ", a)', what
+  end subroutine
+
+  ! A linear field of two components: exact at every point inside, whatever its tet.
+  elemental real(real64) function linear(x, y, z, component)
+    real(real64), intent(in) :: x, y, z
+    integer, intent(in) :: component
+    linear = component + 2 * x - component * y + 0.5d0 * z
+  end function
+
+  function linear_at(points) result(field)
+    real(real64), intent(in) :: points(:, :)
+    real(real64) :: field(2, size(points, 2))
+    integer :: c
+    do c = 1, 2
+      field(c, :) = linear(points(1, :), points(2, :), points(3, :), c)
+    end do
+  end function
+
+  subroutine begin(lod)
+    type(tetlod_context), intent(inout) :: lod
+    call lod%create()
+    call lod%set_rho(0.1)
+    call lod%set_sigma(1.0)
+    call lod%submit_points(xyz)
+    call lod%submit_tets(tets)
+    call lod%submit_scalars("bent", values)
+  end subroutine
+
+  ! The whole boundary stays, so every vertex of the result is inside and a linear field is exact there.
+  subroutine test_point_fields()
+    type(tetlod_context) :: lod
+    real(real64), allocatable, target :: field(:, :), wide(:, :, :)
+    real(real32), allocatable, target :: single(:, :)
+    real(real64), allocatable :: small(:, :), points(:, :), wanted(:, :), moved(:, :)
+    real(real32), allocatable :: small_single(:, :)
+    integer(int64) :: n
+    allocate (field, source=linear_at(xyz))
+    allocate (single, source=real(field, real32))
+    allocate (wide(3, 2, 2 * size(xyz, 2)), source=-1d300)
+    wide(2, :, ::2) = field
+    call begin(lod)
+    call lod%submit_field("double", TETLOD_POINT_FIELD, field)
+    call lod%submit_field("single", TETLOD_POINT_FIELD, single)
+    call lod%submit_field("section", TETLOD_POINT_FIELD, wide(2, :, ::2))
+    call lod%run()
+    call lod%fetch_counts(n)
+    call lod%fetch_points(points)
+    allocate (wanted, source=linear_at(points))
+    allocate (small(2, n), small_single(2, n), moved(2, n))
+    call lod%fetch_field("double", small)
+    call expect(all(abs(small - wanted) < 1d-12), "a linear field is exact")
+    moved = -1
+    call lod%fetch_field("section", moved)
+    call expect(all(same(moved, small)), "a section of a larger array is read in place")
+    call lod%fetch_field("single", small_single)
+    call expect(all(abs(small_single - wanted) < 1e-5), "real32 in, real32 out")
+    moved = -1
+    call lod%transfer(field, moved)
+    call expect(all(same(moved, small)), "transfer gives the bytes of the run")
+    call lod%transfer(single, small_single)
+    call expect(all(abs(small_single - wanted) < 1e-5), "transfer of real32")
+    call lod%destroy()
+  end subroutine
+
+  elemental logical function same(a, b)
+    real(real64), intent(in) :: a, b
+    same = transfer(a, 0_int64) == transfer(b, 0_int64)
+  end function
+
+  ! A cell field is looked up, never mixed: the number of a region stays such a number.
+  subroutine test_cell_fields()
+    type(tetlod_context) :: lod
+    real(real64), allocatable, target :: region(:, :)
+    real(real64), allocatable :: small(:, :), points(:, :)
+    integer(int32), allocatable :: corners(:, :)
+    integer(int64) :: n, m
+    integer :: t, agreed
+    allocate (region(1, size(tets, 2)))
+    do t = 1, size(tets, 2)
+      region(1, t) = merge(7, 3, sum(xyz(1, tets(:, t))) > 2)
+    end do
+    call begin(lod)
+    call lod%submit_field("region", TETLOD_CELL_FIELD, region)
+    call lod%run()
+    call lod%fetch_counts(n, m)
+    call lod%fetch_points(points)
+    call lod%fetch_tets(corners)
+    allocate (small(1, m))
+    call lod%fetch_field("region", small)
+    call expect(all(nint(small) == 7 .or. nint(small) == 3), "regions stay regions")
+    call expect(all(same(small, anint(small))), "regions are not mixed")
+    agreed = 0
+    do t = 1, int(m)
+      if (nint(small(1, t)) == merge(7, 3, sum(points(1, corners(:, t))) > 2)) agreed = agreed + 1
+    end do
+    call expect(agreed == m, "each tet has the region that its centroid is in")
+    call lod%destroy()
+  end subroutine
+
+  subroutine test_stencils()
+    type(tetlod_context) :: lod
+    real(real64), allocatable, target :: field(:, :)
+    real(real64), allocatable :: weights(:, :), moved(:, :), points(:, :)
+    integer(int32), allocatable :: ids(:, :)
+    integer(int64), allocatable :: from_zero(:, :)
+    integer(int64) :: n
+    integer :: i
+    allocate (field, source=linear_at(xyz))
+    call begin(lod)
+    call lod%run()
+    call lod%fetch_counts(n)
+    call lod%fetch_points(points)
+    allocate (ids(4, n), from_zero(4, n), weights(4, n), moved(2, n))
+    call lod%fetch_stencil(ids, weights)
+    call expect(minval(ids) >= 1 .and. maxval(ids) <= size(xyz, 2), "ids count from 1")
+    call expect(all(weights >= 0) .and. all(abs(sum(weights, 1) - 1) < 1d-12), "weights are a mean's")
+    call lod%fetch_stencil(from_zero, weights, index_base=0)
+    call expect(all(from_zero == ids - 1), "index base 0, int64")
+    call lod%transfer(field, moved)
+    do i = 1, int(n)
+      call expect(all(abs(matmul(xyz(:, ids(:, i)), weights(:, i)) - points(:, i)) < 1d-12), "the mean is the point")
+      call expect(all(abs(matmul(field(:, ids(:, i)), weights(:, i)) - moved(:, i)) < 1d-12), "transfer is the mean")
+    end do
+    call lod%destroy()
+  end subroutine
+
+  ! A point inside that nothing else would keep.
+  subroutine test_flags()
+    type(tetlod_context) :: lod
+    integer(int8), allocatable, target :: flags(:)
+    integer :: kept
+    character(len=200) :: message
+    integer :: stat
+    kept = 1 + 3 + (cells + 1) * (4 + (cells + 1) * 5)
+    allocate (flags(size(values)), source=0_int8)
+    call begin(lod)
+    call lod%set_rho(1.0)
+    call lod%submit_point_flags(flags)
+    call lod%run()
+    call expect(.not. is_there(lod, xyz(:, kept)), "no flag, no vertex")
+    flags(kept) = int(TETLOD_FLAG_KEEP, int8)
+    call lod%run()
+    call expect(is_there(lod, xyz(:, kept)), "a kept vertex is there")
+    flags(kept) = 64_int8
+    call lod%run(stat=stat, errmsg=message)
+    call expect(stat == TETLOD_ERR_ARGUMENT .and. index(message, "64") > 0, "a flag without a meaning: "//message)
+    call lod%destroy()
+  end subroutine
+
+  logical function is_there(lod, point)
+    type(tetlod_context), intent(in) :: lod
+    real(real64), intent(in) :: point(3)
+    real(real64), allocatable :: points(:, :)
+    integer :: i
+    call lod%fetch_points(points)
+    is_there = any([(all(same(points(:, i), point)), i=1, size(points, 2))])
+  end function
+
+  subroutine test_failures()
+    type(tetlod_context) :: lod
+    real(real64), allocatable, target :: field(:, :), narrow(:, :)
+    character(len=200) :: message
+    integer :: stat
+    allocate (field, source=linear_at(xyz))
+    call begin(lod)
+    allocate (narrow(2, 3), source=-5d0)
+    call lod%transfer(field, narrow, stat=stat)
+    call expect(stat == TETLOD_ERR_STATE, "no result yet")
+    call lod%submit_field("short", TETLOD_POINT_FIELD, field(:, :10))
+    call lod%run(stat=stat, errmsg=message)
+    call expect(stat == TETLOD_ERR_ARGUMENT .and. index(message, "10 tuples") > 0, "too short: "//message)
+    call lod%submit_field("short", TETLOD_POINT_FIELD, field)
+    call lod%run()
+    call lod%fetch_field("none", narrow, stat=stat, errmsg=message)
+    call expect(stat == TETLOD_ERR_ARGUMENT .and. index(message, "none") > 0, "no such field: "//message)
+    call lod%fetch_field("short", narrow, stat=stat)
+    call expect(stat == TETLOD_ERR_BUFFER_SIZE .and. all(nint(narrow) == -5), "no room, nothing written")
+    call lod%transfer(field(:1, :), narrow, stat=stat)
+    call expect(stat /= TETLOD_OK .and. all(nint(narrow) == -5), "components differ")
+    call lod%destroy()
+  end subroutine
+
+  ! The steps of a solver: the module hands on what the report counts.
+  subroutine test_reuse()
+    type(tetlod_context) :: lod
+    type(tetlod_run_report) :: report
+    call begin(lod)
+    call lod%run()
+    values = values + 0.1d0 * xyz(1, :)
+    call lod%run()
+    call lod%fetch_report(report)
+    call expect(report%reused_tets == size(tets, 2), "the mesh is taken over")
+    call lod%destroy()
+  end subroutine
+end module
+
+program test_fields
+  use field_tests
+  implicit none
+  call make_box(cells, xyz, tets)
+  allocate (values, source=sin(4 * xyz(1, :)) + xyz(2, :) * xyz(3, :))
+  call test_point_fields()
+  call test_cell_fields()
+  call test_stencils()
+  call test_flags()
+  call test_failures()
+  call test_reuse()
+  if (failures > 0) error stop "the field procedures of the module tetlod fail"
+  print '("ok")'
+end program
