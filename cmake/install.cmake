@@ -1,19 +1,23 @@
 # What an installed tetlod consists of: the library, its header, a CMake package and a pkg-config file. Every path in
-# them is relative, so that the installed tree can be moved. The worker and the tool install themselves.
+# them is relative, so that the installed tree can be moved. The worker, the tool and the man pages install themselves.
+# Components: library, development, tool, worker; each is a package (package.cmake).
 include(CMakePackageConfigHelpers)
 
 set(TETLOD_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/tetlod)
 set(TETLOD_PKGCONFIG_DIR ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 
-install(TARGETS tetlod EXPORT tetlodTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS tetlod EXPORT tetlodTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library
+  NAMELINK_COMPONENT development)
 install(FILES ${PROJECT_SOURCE_DIR}/capi/tetlod.h ${PROJECT_SOURCE_DIR}/bindings/cpp/tetlod.hpp
-  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
-install(EXPORT tetlodTargets NAMESPACE tetlod:: DESTINATION ${TETLOD_CMAKE_DIR})
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR}
+  COMPONENT library)
+install(EXPORT tetlodTargets NAMESPACE tetlod:: DESTINATION ${TETLOD_CMAKE_DIR} COMPONENT development)
 
 if(TARGET tetlod_fortran)
-  install(TARGETS tetlod_fortran EXPORT tetlodFortranTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
-  install(EXPORT tetlodFortranTargets NAMESPACE tetlod:: DESTINATION ${TETLOD_CMAKE_DIR})
+  install(TARGETS tetlod_fortran EXPORT tetlodFortranTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+    COMPONENT library NAMELINK_COMPONENT development)
+  install(EXPORT tetlodFortranTargets NAMESPACE tetlod:: DESTINATION ${TETLOD_CMAKE_DIR} COMPONENT development)
 endif()
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/tetlodConfig.cmake.in
@@ -26,7 +30,7 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/cmake/tetlodConfigVersion
 install(FILES
   ${PROJECT_BINARY_DIR}/cmake/tetlodConfig.cmake
   ${PROJECT_BINARY_DIR}/cmake/tetlodConfigVersion.cmake
-  DESTINATION ${TETLOD_CMAKE_DIR})
+  DESTINATION ${TETLOD_CMAKE_DIR} COMPONENT development)
 
 # pkg-config knows the folder of the .pc file; the others are told from there.
 file(RELATIVE_PATH TETLOD_PC_TO_PREFIX
@@ -38,5 +42,13 @@ if(TARGET tetlod_fortran)
 endif()
 foreach(name IN LISTS TETLOD_PC_FILES)
   configure_file(${CMAKE_CURRENT_LIST_DIR}/${name}.pc.in ${PROJECT_BINARY_DIR}/cmake/${name}.pc @ONLY)
-  install(FILES ${PROJECT_BINARY_DIR}/cmake/${name}.pc DESTINATION ${TETLOD_PKGCONFIG_DIR})
+  install(FILES ${PROJECT_BINARY_DIR}/cmake/${name}.pc DESTINATION ${TETLOD_PKGCONFIG_DIR}
+    COMPONENT development)
 endforeach()
+
+# Takes back what the last installation wrote, by its manifest.
+if(NOT TARGET uninstall)
+  add_custom_target(uninstall VERBATIM
+    COMMAND ${CMAKE_COMMAND} -DMANIFEST=${PROJECT_BINARY_DIR}/install_manifest.txt
+      -P ${CMAKE_CURRENT_LIST_DIR}/uninstall.cmake)
+endif()

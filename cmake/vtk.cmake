@@ -35,6 +35,7 @@ function(tetlod_add_vtk_module)
     PACKAGE tetlodVTK
     ENABLE_WRAPPING ${TETLOD_VTK_PYTHON}
     INSTALL_HEADERS ON
+    TARGETS_COMPONENT tool
     TEST_DIRECTORY_NAME NONE)
   if(TETLOD_VTK_PYTHON)
     vtk_module_wrap_python(
