@@ -61,12 +61,12 @@ class Decimator {
       update_cost(OpenMesh::EdgeHandle(int(e)));
     }
     for (std::int64_t step = 0; edges_ > target && !queue_.empty(); step++) {
+      if (step % 64 == 0) job_.poll(double(start - edges_) / double(std::max<std::int64_t>(start - target, 1)));
       const OpenMesh::EdgeHandle edge(queue_.top());
       if (by_length_ && queue_.cost(edge.idx()) > length_limit * length_limit) break;
       if (!quadrics_.empty() && !by_length_ && is_dearer_now(edge)) continue;
       queue_.remove(edge.idx());
       try_collapse(edge);
-      if (step % 64 == 0) job_.poll(double(start - edges_) / double(std::max<std::int64_t>(start - target, 1)));
     }
     while (!queue_.empty()) queue_.remove(queue_.top());
   }
@@ -213,7 +213,7 @@ class Decimator {
   bool is_dearer_now(OpenMesh::EdgeHandle edge) {
     const double cost = queue_.cost(edge.idx());
     update_cost(edge);
-    return queue_.empty() || queue_.top() != edge.idx() || queue_.cost(edge.idx()) > 1.5 * cost;
+    return queue_.empty() || queue_.top() != edge.idx() || queue_.cost(edge.idx()) > cost + 0.5 * std::abs(cost);
   }
 
   // ---- Admissibility
