@@ -215,8 +215,8 @@ std::int64_t move_vertices(std::size_t first, Job &job, AdaptiveMesh &mesh) {
   Array<std::int32_t> items(&job.memory);
   for (std::size_t v = first; v < mesh.points.size(); v++)
     if (!mesh.fixed[v] && !mesh.kept[v] && mesh.tet_of[v] >= 0) items.push_back(std::int32_t(v));
-  const TetsOfVertices tets(mesh);  // which stay: vertices move, nothing else
-  const Array<std::size_t> batches = batches_apart(mesh, tets, items);
+  const TetsOfVertices tets(mesh, job);  // which stay: vertices move, nothing else
+  const Array<std::size_t> batches = batches_apart(mesh, tets, job, items);
   const MoveFinder finder(tets, quiet * 4 * mesh.total_error() / double(mesh.points.size()), mesh);
   return sweep<Move>(
       items, batches, job, mesh, [&](std::int32_t v, Move &move) { return finder.find(v, move); },

@@ -25,7 +25,7 @@ class Refinement {
     mesh_.points = std::move(mesh.points);
     mesh_.values = std::move(mesh.scalars);
     mesh_.tets = std::move(mesh.tets);
-    sort_by_place(mesh_.points, mesh_.tets, job.memory);
+    sort_by_place(mesh_.points, mesh_.tets, job);
     first_inserted_ = mesh_.points.size();
     mesh_.kept.assign(options.kept.begin(), options.kept.end());
     mesh_.kept.resize(mesh_.points.size(), 0);

@@ -1,6 +1,7 @@
 #include "sort_by_place.hpp"
 
 #include <algorithm>
+#include <functional>
 
 namespace tetlod {
 
@@ -27,17 +28,18 @@ std::uint64_t morton_code(const Vec3 &p, const Box &box) {
 
 }  // namespace
 
-void sort_by_place(Span<const Vec3> points, Array<Tet> &tets, Memory &memory) {
+void sort_by_place(Span<const Vec3> points, Array<Tet> &tets, Job &job) {
   const Box box = box_of(points);
-  Array<std::pair<std::uint64_t, std::int32_t>> order(&memory);
+  Array<std::pair<std::uint64_t, std::int32_t>> order(&job.memory);
   order.reserve(tets.size());
   for (std::size_t t = 0; t < tets.size(); t++) {
+    if (t % 65536 == 0) job.poll(0);
     Vec3 centroid(0);
     for (std::int32_t v : tets[t]) centroid += 0.25 * points[std::size_t(v)];
     order.push_back({morton_code(centroid, box), std::int32_t(t)});
   }
-  std::sort(order.begin(), order.end());
-  Array<Tet> sorted(&memory);
+  std::sort(order.begin(), order.end(), PollingLess(job, 0, std::less<>()));
+  Array<Tet> sorted(&job.memory);
   sorted.reserve(tets.size());
   for (const auto &[code, t] : order) sorted.push_back(tets[std::size_t(t)]);
   tets.swap(sorted);

@@ -7,21 +7,23 @@ namespace {
 constexpr std::size_t largest_batch = 256;
 
 template <class Visit>
-void for_each_use(const AdaptiveMesh &mesh, const Visit &visit) {
-  for (std::size_t t = 0; t < mesh.tets.size(); t++)
+void for_each_use(const AdaptiveMesh &mesh, Job &job, const Visit &visit) {
+  for (std::size_t t = 0; t < mesh.tets.size(); t++) {
+    if (t % 65536 == 0) job.poll(0);
     if (mesh.alive(std::int32_t(t)))
       for (std::int32_t v : mesh.tets[t]) visit(std::int32_t(t), v);
+  }
 }
 
 }  // namespace
 
-TetsOfVertices::TetsOfVertices(const AdaptiveMesh &mesh)
+TetsOfVertices::TetsOfVertices(const AdaptiveMesh &mesh, Job &job)
     : first_(mesh.points.size() + 1, 0, &mesh.memory()), tets_(&mesh.memory()) {
-  for_each_use(mesh, [&](std::int32_t, std::int32_t v) { first_[std::size_t(v) + 1]++; });
+  for_each_use(mesh, job, [&](std::int32_t, std::int32_t v) { first_[std::size_t(v) + 1]++; });
   for (std::size_t v = 0; v + 1 < first_.size(); v++) first_[v + 1] += first_[v];
   tets_.resize(first_.back());
   Array<std::uint32_t> place(first_.begin(), first_.end(), &mesh.memory());
-  for_each_use(mesh, [&](std::int32_t t, std::int32_t v) { tets_[place[std::size_t(v)]++] = t; });
+  for_each_use(mesh, job, [&](std::int32_t t, std::int32_t v) { tets_[place[std::size_t(v)]++] = t; });
 }
 
 Array<std::size_t> batches_of(std::size_t count, std::size_t batch, Memory &memory) {
@@ -31,28 +33,34 @@ Array<std::size_t> batches_of(std::size_t count, std::size_t batch, Memory &memo
   return ends;
 }
 
-Array<std::size_t> batches_apart(const AdaptiveMesh &mesh, const TetsOfVertices &tets, Array<std::int32_t> &vertices) {
-  std::sort(vertices.begin(), vertices.end(), [&](std::int32_t a, std::int32_t b) {
+Array<std::size_t> batches_apart(const AdaptiveMesh &mesh, const TetsOfVertices &tets, Job &job,
+                                 Array<std::int32_t> &vertices) {
+  const auto before = [&](std::int32_t a, std::int32_t b) {
     const std::int32_t s = tets.of(a)[0], t = tets.of(b)[0];
     return s != t ? s < t : a < b;
-  });
+  };
+  std::sort(vertices.begin(), vertices.end(), PollingLess(job, 0, before));
   Array<std::size_t> ends(&mesh.memory());
   Array<std::size_t> taken(mesh.tets.size(), 0, &mesh.memory());  // by a vertex of which batch
-  Array<std::int32_t> ordered(&mesh.memory()), left(vertices, &mesh.memory()), later(&mesh.memory());
-  while (!left.empty()) {
-    const std::size_t batch = ends.size() + 1, begin = ordered.size();
-    later.clear();
-    for (std::int32_t v : left) {
+  Array<std::int32_t> ordered(&mesh.memory()), waiting(&mesh.memory()), still_waiting(&mesh.memory());
+  ordered.reserve(vertices.size());
+  for (std::size_t next = 0; next < vertices.size() || !waiting.empty();) {
+    if (ends.size() % 16 == 0) job.poll(0);
+    const std::size_t batch = ends.size() + 1, full = ordered.size() + largest_batch;
+    const auto take_or_leave = [&](std::int32_t v) {
       const Span<const std::int32_t> star = tets.of(v);
-      const bool apart =
-          ordered.size() < begin + largest_batch &&
-          std::none_of(star.begin(), star.end(), [&](std::int32_t t) { return taken[std::size_t(t)] == batch; });
-      (apart ? ordered : later).push_back(v);
+      const bool apart = ordered.size() < full && std::none_of(star.begin(), star.end(), [&](std::int32_t t) {
+                           return taken[std::size_t(t)] == batch;
+                         });
+      (apart ? ordered : still_waiting).push_back(v);
       if (apart)
         for (std::int32_t t : star) taken[std::size_t(t)] = batch;
-    }
+    };
+    still_waiting.clear();
+    for (std::int32_t v : waiting) take_or_leave(v);
+    while (next < vertices.size() && ordered.size() < full) take_or_leave(vertices[next++]);
+    waiting.swap(still_waiting);
     ends.push_back(ordered.size());
-    left.swap(later);
   }
   vertices.swap(ordered);
   return ends;

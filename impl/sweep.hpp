@@ -46,7 +46,7 @@ Array<std::size_t> batches_of(std::size_t count, std::size_t batch, Memory &memo
 /// The tets of every vertex, as they are when it is made.
 class TetsOfVertices {
  public:
-  explicit TetsOfVertices(const AdaptiveMesh &mesh);
+  TetsOfVertices(const AdaptiveMesh &mesh, Job &job);
   Span<const std::int32_t> of(std::int32_t v) const {
     const std::uint32_t begin = first_[std::size_t(v)];
     return {tets_.data() + begin, first_[std::size_t(v) + 1] - begin};
@@ -58,6 +58,7 @@ class TetsOfVertices {
 };
 
 /// Orders inner vertices into batches in which no two share a tet, each along the tets.
-Array<std::size_t> batches_apart(const AdaptiveMesh &mesh, const TetsOfVertices &tets, Array<std::int32_t> &vertices);
+Array<std::size_t> batches_apart(const AdaptiveMesh &mesh, const TetsOfVertices &tets, Job &job,
+                                 Array<std::int32_t> &vertices);
 
 }  // namespace tetlod
