@@ -22,7 +22,7 @@ struct Arguments {
 
 void add_options(CLI::App &app, Arguments &a) {
   app.add_option("sets", a.sets, "names in TETLOD_DATA_DIR or ../shared/data, or .vtu files")->capture_default_str();
-  app.add_option("--sizes", a.sweep.sizes, "parts of the tets that are kept, falling")
+  app.add_option("--sizes", a.sweep.sizes, "parts of the tets that are kept")
       ->delimiter(',')
       ->check(CLI::Range(1e-6, 1.0))
       ->capture_default_str();
@@ -32,7 +32,7 @@ void add_options(CLI::App &app, Arguments &a) {
   app.add_option("--threads", a.sweep.threads, "of tetlod, 0: one a core; the peer has one")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
-  app.add_option("--out", a.out, "writes this name with .md, .svg and .json")->capture_default_str();
+  app.add_option("--out", a.out, "writes this name with .md, .svg and .json")->take_last()->capture_default_str();
   app.add_option("--judge", a.sweep.judge, "a program that is asked about the same results")
       ->envname("TETLOD_JUDGE")
       ->type_name("PROGRAM");

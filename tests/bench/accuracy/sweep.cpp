@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <optional>
 
 #include "find_rho.hpp"
@@ -111,8 +112,10 @@ Sweep sweep_set(const std::string &name, const Mesh &mesh, const SweepOptions &o
   const Original original{name, mesh, shape_of(mesh), options.judge};
   const Peer peer(mesh);
   Sweep sweep{name, std::int64_t(mesh.points.size()), std::int64_t(mesh.tets.size()), {}};
+  std::vector<double> falling = options.sizes;
+  std::sort(falling.begin(), falling.end(), std::greater<>());
   bool peer_stops = false;  // where it stopped once it stops again, however little it is asked for
-  for (const double size : options.sizes) {
+  for (const double size : falling) {
     std::fprintf(stderr, "%s: %.1f %%\n", name.c_str(), 100 * size);
     const std::int64_t goal = std::llround(size * double(mesh.tets.size()));
     if (!peer_stops) {

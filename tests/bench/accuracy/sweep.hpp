@@ -32,7 +32,7 @@ struct Sweep {
 };
 
 struct SweepOptions {
-  std::vector<double> sizes{0.2, 0.1, 0.05, 0.02};  // parts of the tets, falling
+  std::vector<double> sizes{0.2, 0.1, 0.05, 0.02};  // parts of the tets
   int rounds = 3;
   std::int64_t threads = 1;
   std::string judge;  // a program from outside that is asked about each result, too; empty: none
