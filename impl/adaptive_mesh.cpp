@@ -33,15 +33,16 @@ void AdaptiveMesh::connect(Job &job) {
       if (neighbours[t][k] >= 0) continue;
       for (int corner : tet_face[k]) fixed[std::size_t(tets[t][std::size_t(corner)])] = 1;
     }
-  find_touching();
+  find_touching(job);
 }
 
 /// Vertices that have tets beyond those that their faces lead to, and the ends of edges that do.
-void AdaptiveMesh::find_touching() {
+void AdaptiveMesh::find_touching(Job &job) {
   Array<std::int32_t> count(points.size(), 0, &memory_), around(&memory_);
   for (const Tet &t : tets)
     for (std::int32_t v : t) count[std::size_t(v)]++;
   for (std::size_t v = 0; v < points.size(); v++) {
+    if (v % 1024 == 0) job.poll(0.1);
     if (!fixed[v]) continue;
     star(std::int32_t(v), around);
     if (std::int32_t(around.size()) != count[v]) fixed[v] = touching;
@@ -54,7 +55,7 @@ void AdaptiveMesh::find_touching() {
       for (const auto &[a, b] : {std::pair(f[0], f[1]), std::pair(f[0], f[2]), std::pair(f[1], f[2])})
         edges.push_back({a, b});
     }
-  std::sort(edges.begin(), edges.end());
+  std::sort(edges.begin(), edges.end(), PollingLess(job, 0.1, std::less<>()));
   for (std::size_t i = 2; i < edges.size(); i++)
     if (edges[i] == edges[i - 2]) fixed[std::size_t(edges[i].first)] = fixed[std::size_t(edges[i].second)] = touching;
 }

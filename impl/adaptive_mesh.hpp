@@ -2,6 +2,7 @@
 // each tet the probes, points where the field of the mesh is compared with the original's.
 #pragma once
 #include <cstdint>
+#include <functional>
 
 #include "few.hpp"
 #include "geometry.hpp"
@@ -86,6 +87,7 @@ class AdaptiveMesh {
   Array<double> error;        ///< of each tet: the sum of squares at its probes
   Array<Probe> probes;        ///< first those at original vertices
   std::size_t vertex_probes = 0;
+  std::function<bool(const Vec3 &)> may_bound;  ///< whether a new vertex of the boundary may be there; empty: anywhere
   Array<std::int32_t> first_probe, next_probe;  ///< lists of the probes in each tet, ended by -1
   Array<std::int32_t> tet_of;                   ///< one of the tets of each vertex
 
@@ -159,7 +161,7 @@ class AdaptiveMesh {
     int side;
   };
   std::int32_t slot();
-  void find_touching();
+  void find_touching(Job &job);
 
   Memory &memory_;
   Array<std::uint32_t> touched_;  // the batch in which each tet changed last

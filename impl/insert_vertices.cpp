@@ -88,7 +88,9 @@ bool insert_vertex(std::int32_t t, const Vec3 &p, double value, double snap, dou
   if (on_boundary &&
       std::all_of(simplex, simplex + size, [&](std::int32_t u) { return mesh.kept[std::size_t(u)] != 0; }))
     return false;
-  mesh.points.push_back(size == 4 ? p : sum / total);
+  const Vec3 place = size == 4 ? p : sum / total;
+  if (on_boundary && mesh.may_bound && !mesh.may_bound(place)) return false;
+  mesh.points.push_back(place);
   for (const Tet &part : fresh)
     if (!mesh.is_sound(part, least)) {
       mesh.points.pop_back();

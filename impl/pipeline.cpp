@@ -154,9 +154,15 @@ class Pipeline {
     const StageTimer timer(Stage::values, job_, report_);
     const double range = report_.scalar_max - report_.scalar_min;
     const Array<std::uint8_t> kept = flags_of_result();
-    const RefineOptions options{budget_.tets, report_.steiner_points, rounds_of(options_, report_),
-                                options_.max_error * range, kept};
+    const RefineOptions options{budget_.tets,
+                                report_.steiner_points,
+                                rounds_of(options_, report_),
+                                options_.max_error * range,
+                                kept,
+                                boundary_.triangles,
+                                options_.max_deviation * original_.box.diagonal()};
     const RefineReport refined = tetlod::refine(original_.view, options, job_, mesh_);
+    report_.max_deviation = std::max(report_.max_deviation, refined.deviation / original_.box.diagonal());
     report_.samples -= refined.removed_samples;
     report_.steiner_points -= refined.removed_steiner;
     report_.inserted_points = refined.inserted - refined.inserted_on_boundary;

@@ -1,5 +1,8 @@
 #include "refine.hpp"
 
+#include <algorithm>
+#include <optional>
+
 #include "adaptive_mesh.hpp"
 #include "fit_values.hpp"
 #include "flip_tets.hpp"
@@ -9,6 +12,7 @@
 #include "place_probes.hpp"
 #include "remove_vertices.hpp"
 #include "sort_by_place.hpp"
+#include "surface_distance.hpp"
 
 namespace tetlod {
 
@@ -30,6 +34,8 @@ class Refinement {
     mesh_.kept.assign(options.kept.begin(), options.kept.end());
     mesh_.kept.resize(mesh_.points.size(), 0);
     mesh_.connect(job);
+    if (options.max_deviation > 0)
+      mesh_.may_bound = [this](const Vec3 &p) { return deviation_at(p) <= options_.max_deviation; };
   }
 
   RefineReport run() {
@@ -90,11 +96,19 @@ class Refinement {
       const bool is_there = mesh_.tet_of[v] >= 0;
       if (v >= first_inserted_) {
         report_.inserted += is_there;
-        report_.inserted_on_boundary += is_there && mesh_.fixed[v];
+        if (!is_there || !mesh_.fixed[v]) continue;
+        report_.inserted_on_boundary++;
+        report_.deviation = std::max(report_.deviation, deviation_at(mesh_.points[v]));
       } else if (!is_there) {
         (v < first_steiner ? report_.removed_samples : report_.removed_steiner)++;
       }
     }
+  }
+
+  /// From the original's boundary. Faces keep near to it at their corners alone.
+  double deviation_at(const Vec3 &p) {
+    if (!nearest_) nearest_.emplace(original_.points, options_.boundary, 8, job_);
+    return nearest_->nearest(p).distance;
   }
 
   void write() {
@@ -128,6 +142,7 @@ class Refinement {
   Job &job_;
   TetMesh &out_;
   AdaptiveMesh mesh_;
+  std::optional<NearestTriangle> nearest_;
   std::size_t first_inserted_ = 0;
   RefineReport report_;
 };

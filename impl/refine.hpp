@@ -11,6 +11,8 @@ struct RefineOptions {
   int rounds = 0;                 ///< that also remove and insert vertices, after one pass that moves and flips
   double bound = 0;               ///< of the error at every original vertex, absolute; 0: none
   Span<const std::uint8_t> kept;  ///< points that keep place and value, and the faces among them; empty: none
+  Span<const Triangle> boundary;  ///< of the original
+  double max_deviation = 0;       ///< of a new vertex of the boundary from the original's; 0: no limit
 };
 
 struct RefineReport {
@@ -18,6 +20,7 @@ struct RefineReport {
   std::int64_t removed_samples = 0, removed_steiner = 0;
   std::int64_t beyond_bound = 0;  ///< original vertices where the bound could not be held
   double max_error = 0;           ///< at the original vertices; those outside count with a bound alone
+  double deviation = 0;           ///< of the new vertices of the boundary from the original's
 };
 
 /// `mesh` has points, scalars and tets. Fits its values, moves inner vertices, flips faces and edges, removes inner
