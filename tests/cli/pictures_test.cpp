@@ -34,7 +34,7 @@ std::size_t count_of(const std::string &text, const std::string &part) {
 TEST_F(Pictures, AreWrittenOnLightAndOnDarkPaper) {
   const Outcome outcome = run({});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  for (const std::string name : {"surface", "isosurfaces", "slices", "histograms"}) {
+  for (const std::string name : {"surface", "isosurfaces", "volume", "slices", "histograms"}) {
     const std::string light = file(name + ".png"), dark = file(name + "-dark.png");
     ASSERT_GT(light.size(), 1000U) << name;
     EXPECT_EQ(light.substr(1, 3), "PNG");
@@ -47,9 +47,9 @@ TEST_F(Pictures, AreWrittenOnLightAndOnDarkPaper) {
 TEST_F(Pictures, TheReportNeedsNothingBesideIt) {
   ASSERT_EQ(run({}, {"--rho", "0.125"}).status, 0);
   const std::string page = file("report.html");
-  EXPECT_EQ(count_of(page, "src=\"data:image/png;base64,"), 4U);
-  EXPECT_EQ(count_of(page, "srcset=\"data:image/png;base64,"), 4U);
-  EXPECT_EQ(count_of(page, "src="), 4U);
+  EXPECT_EQ(count_of(page, "src=\"data:image/png;base64,"), 5U);
+  EXPECT_EQ(count_of(page, "srcset=\"data:image/png;base64,"), 5U);
+  EXPECT_EQ(count_of(page, "src="), 5U);
   EXPECT_EQ(count_of(page, "http"), 0U);
   EXPECT_EQ(count_of(page, "<script"), 0U);
   for (const char *part : {"1,296 tets became", "--rho 0.125", "heat", "root mean square", "tetrahedralization"})

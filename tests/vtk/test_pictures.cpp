@@ -1,11 +1,14 @@
 // What the tool's pictures are drawn with: numbers along axes, colours, and the raster.
 #include <gtest/gtest.h>
+#include <vtkPointData.h>
 
 #include <cmath>
 
 #include "colour_map.hpp"
+#include "filter_fixture.hpp"
 #include "raster.hpp"
 #include "scale.hpp"
+#include "volume.hpp"
 
 namespace vtk_test {
 namespace {
@@ -112,6 +115,34 @@ TEST(Raster, ValuesVaryLinearly) {
       EXPECT_NEAR(double(raster.samples()[y * 20 + x].value), right + 2 * up, 1e-6);
     }
   }
+}
+
+// heat = x + 2 y + 3 z in the unit cube, looked at along z: 40 pixels wide, of which the cube has 92 %.
+TEST(Volume, HasTheFieldWhereTheMeshIs) {
+  const Grid grid = cube_grid();
+  View view = view_along(2, {1, 1, 1});
+  std::vector<Vector> corners;
+  for (int c = 0; c < 8; c++) corners.push_back({double(c & 1), double(c >> 1 & 1), double(c >> 2 & 1)});
+  fit(view, corners, 40, 40);
+  constexpr int depths = 10;
+  Volume volume(view, corners, depths);
+  volume.fill({grid, grid->GetPointData()->GetScalars()});
+  std::size_t inside = 0;
+  for (int i = 0; i < 40 * 40 * depths; i++) {
+    const float value = volume.values()[std::size_t(i)];
+    if (!std::isfinite(value)) continue;
+    const double x = (i / depths % 40 + 0.5 - 20) / view.pixels + 0.5,
+                 y = (20 - 0.5 - i / depths / 40) / view.pixels + 0.5;
+    EXPECT_NEAR(double(value), x + 2 * y + 3 * (i % depths + Volume::place(i / depths % 40, i / depths / 40)) / depths,
+                1e-5);
+    inside++;
+  }
+  EXPECT_NEAR(double(inside), 0.92 * 40 * 0.92 * 40 * depths, 0.06 * 40 * 40 * depths);
+  const Scale scale{0, 6, false};
+  const Image image = volume.image(opacity_by_rarity(volume, scale, 16), scale);
+  EXPECT_EQ(image.pixel(0, 0)[3], 0) << "beside the cube";
+  EXPECT_GT(image.pixel(20, 20)[3], 30);
+  EXPECT_GT(image.pixel(37, 3)[3], image.pixel(20, 20)[3]) << "rare values are denser: the corner's are the largest";
 }
 
 TEST(View, FitsWhatItShows) {

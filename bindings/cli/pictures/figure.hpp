@@ -31,10 +31,11 @@ struct Figure {
 
 Figure surface_figure(const Pair &pair, const View &view);
 Figure isosurface_figure(const Pair &pair, const View &view);
+Figure volume_figure(const Pair &pair, const View &view);
 Figure slice_figure(const Pair &pair);
 Figure histogram_figure(const Pair &pair);
 
-// The view that the first two share.
+// The view that the first three share.
 View view_of(const Pair &pair);
 
 // How often the finite values of an array are in each of `bins` equal parts of the scale.

@@ -9,6 +9,14 @@
 #include <cmath>
 
 namespace cli {
+namespace {
+
+// A step that nobody sees makes a file with shaded surfaces a third smaller. White and black stay.
+std::uint8_t coarse(std::uint8_t channel) {
+  return channel >= 254 ? 255 : static_cast<std::uint8_t>((channel + 2) / 4 * 4);
+}
+
+}  // namespace
 
 void blend(std::uint8_t *pixel, const Colour &colour, double opacity) {
   const double over[3] = {colour.red, colour.green, colour.blue};
@@ -27,7 +35,7 @@ std::string png_of(const Image &image) {
   data->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
   for (int y = 0; y < image.height; y++) {  // VTK's rows begin at the bottom
     auto *row = static_cast<std::uint8_t *>(data->GetScalarPointer(0, image.height - 1 - y, 0));
-    for (int x = 0; x < image.width; x++) std::copy_n(image.pixel(x, y), 3, row + 3 * x);
+    for (int x = 0; x < image.width; x++) std::transform(image.pixel(x, y), image.pixel(x, y) + 3, row + 3 * x, coarse);
   }
   vtkNew<vtkPNGWriter> writer;
   writer->SetInputData(data);

@@ -39,6 +39,7 @@ std::vector<DrawnFigure> all_figures(const Pair &pair) {
   std::vector<DrawnFigure> figures;
   figures.push_back(drawn(surface_figure(pair, view)));
   figures.push_back(drawn(isosurface_figure(pair, view)));
+  figures.push_back(drawn(volume_figure(pair, view)));
   figures.push_back(drawn(slice_figure(pair)));
   figures.push_back(drawn(histogram_figure(pair)));
   return figures;

@@ -1,0 +1,58 @@
+// Both meshes as coloured smoke.
+#include <vtkDataSetTriangleFilter.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+
+#include <array>
+#include <memory>
+
+#include "colour_map.hpp"
+#include "figure.hpp"
+#include "volume.hpp"
+
+namespace cli {
+namespace {
+
+constexpr int kDepths = 192, kBins = 64, kHeight = 420, kHead = 40, kFoot = 60;
+
+Sight in_tets(const Sight &sight) {
+  if (sight.grid->GetCells()->IsHomogeneous() == 4) return sight;
+  vtkNew<vtkDataSetTriangleFilter> filter;
+  filter->TetrahedraOnlyOn();
+  filter->SetInputData(sight.grid);
+  filter->Update();
+  return {filter->GetOutput(), filter->GetOutput()->GetPointData()->GetScalars()};
+}
+
+}  // namespace
+
+Figure volume_figure(const Pair &pair, const View &from) {
+  View view = from;
+  const Shape surface = surface_of(pair.original);
+  fit(view, surface.points, kPanelWidth, kHeight);
+  Volume volume(view, surface.points, kDepths);
+  volume.fill(in_tets(pair.original));
+  const auto opacity = opacity_by_rarity(volume, pair.scale, kBins);
+  auto images = std::make_shared<std::array<Image, 2>>();
+  (*images)[0] = volume.image(opacity, pair.scale);
+  volume = Volume(view, surface.points, kDepths);
+  volume.fill(pair.simplified);
+  (*images)[1] = volume.image(opacity, pair.scale);
+  Figure figure{"volume", "Inside", "", kPageWidth, kHead + kHeight + kFoot, {}};
+  figure.caption =
+      "Through the volume as through coloured smoke (the paper's Figure 9), denser where a value is rarer in the "
+      "original, "
+      "so that what differs from its surroundings shows. One camera, one colour map, one density.";
+  figure.draw = [images, pair](Canvas &page) {
+    for (int side = 0; side < 2; side++) {
+      const int left = side == 0 ? 0 : kPageWidth - kPanelWidth;
+      page.text(pair.captions[side], left + kPanelWidth / 2.0, kHead / 2.0, kCaptionSize, Align::centre, true);
+      page.picture((*images)[std::size_t(side)], left, kHead);
+    }
+    page.colour_bar(kBarLeft, kHead + kHeight + 12, kBarWidth, pair.scale, field_colour,
+                    pair.label + (pair.scale.logarithmic ? ", logarithmic" : ""));
+  };
+  return figure;
+}
+
+}  // namespace cli
