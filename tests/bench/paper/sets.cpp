@@ -14,6 +14,7 @@ constexpr const char *kSets[] = {"bluntfin",       "bluntfin_raw",     "spx",   
                                  "microstructure", "slac_pic_nan",     "bluntfin_x8"};
 
 std::string percent(double share, int digits) {
+  if (!std::isfinite(share)) return "not measured";  // the set has values that are none
   char text[32];
   std::snprintf(text, sizeof text, "%.*f %%", digits, 100 * share);
   return text;
