@@ -15,6 +15,7 @@
 #include "refine.hpp"
 #include "sample_interior.hpp"
 #include "sample_residual.hpp"
+#include "stage_timer.hpp"
 #include "status.hpp"
 #include "surface_topology.hpp"
 #include "validate.hpp"
@@ -22,20 +23,6 @@
 namespace tetlod {
 
 namespace {
-
-/// The seconds of a stage are those that a StageTimer of it lives.
-class StageTimer {
- public:
-  StageTimer(Stage stage, Job &job, Report &report) : seconds_(report.seconds[std::size_t(stage)]) { job.enter(stage); }
-  ~StageTimer() { seconds_ += std::chrono::duration<double>(Clock::now() - begin_).count(); }
-  StageTimer(const StageTimer &) = delete;
-  StageTimer &operator=(const StageTimer &) = delete;
-
- private:
-  using Clock = std::chrono::steady_clock;
-  double &seconds_;
-  Clock::time_point begin_ = Clock::now();
-};
 
 class Pipeline {
  public:
