@@ -153,10 +153,11 @@ FieldError measure_error(const Input &input, const Options &options, const TetMe
 }
 
 void histogram(Span<const double> values, double low, double high, Span<std::int64_t> counts) {
-  const double width = (high - low) / double(counts.size());
+  const double part = std::isfinite(high - low) ? 1 : 0.5;  // of values, so that their range is a double
+  const double width = (part * high - part * low) / double(counts.size());
   for (double value : values) {
     if (!(value >= low && value <= high)) continue;
-    const double bin = width > 0 ? (value - low) / width : 0;
+    const double bin = width > 0 ? (part * value - part * low) / width : 0;
     counts[std::min(std::size_t(bin), counts.size() - 1)]++;
   }
 }
