@@ -6,6 +6,7 @@
 #include <glm/matrix.hpp>
 
 #include "adaptive_mesh.hpp"
+#include "budget.hpp"
 #include "geometry.hpp"
 #include "surface_distance.hpp"
 
@@ -78,6 +79,15 @@ std::size_t halve(const MeshView &mesh, Span<std::int32_t> vertices) {
   return middle;
 }
 
+std::size_t count_linear_parts(const MeshView &mesh, Span<std::int32_t> vertices, double bound, Job &job) {
+  constexpr std::size_t too_few = 5;  // a linear function fits them
+  job.poll(0.5);
+  if (vertices.size() < too_few || off_linear(mesh, {vertices.data(), vertices.size()}) <= bound) return 1;
+  const std::size_t middle = halve(mesh, vertices);
+  return count_linear_parts(mesh, {vertices.data(), middle}, bound, job) +
+         count_linear_parts(mesh, {vertices.data() + middle, vertices.size() - middle}, bound, job);
+}
+
 }  // namespace
 
 double expected_bytes(const Outlook &outlook, const Input &input) {
@@ -102,13 +112,13 @@ double share_away(Span<const Vec3> points, Span<const Triangle> boundary, Span<c
   return asked ? double(away) / double(asked) : 1;
 }
 
-std::size_t count_linear_parts(const MeshView &mesh, Span<std::int32_t> vertices, double bound, Job &job) {
-  constexpr std::size_t too_few = 5;  // a linear function fits them
-  job.poll(0.5);
-  if (vertices.size() < too_few || off_linear(mesh, {vertices.data(), vertices.size()}) <= bound) return 1;
-  const std::size_t middle = halve(mesh, vertices);
-  return count_linear_parts(mesh, {vertices.data(), middle}, bound, job) +
-         count_linear_parts(mesh, {vertices.data() + middle, vertices.size() - middle}, bound, job);
+double tets_for_bound(const MeshView &mesh, double bound, Job &job) {
+  if (!(bound > 0)) return 0;
+  Array<std::int32_t> vertices(&job.memory);
+  vertices.reserve(mesh.points.size());
+  for (std::size_t v = 0; v < mesh.points.size(); v++) vertices.push_back(std::int32_t(v));
+  const std::size_t parts = count_linear_parts(mesh, {vertices.data(), vertices.size()}, bound, job);
+  return std::min(tets_a_part * double(parts), double(mesh.tets.size()));
 }
 
 }  // namespace tetlod

@@ -23,8 +23,8 @@ double expected_bytes(const Outlook &outlook, const Input &input);
 double share_away(Span<const Vec3> points, Span<const Triangle> boundary, Span<const std::int32_t> samples,
                   double least, Job &job);
 
-/// Parts into which the vertices are to be divided until in none the values are off by more than `bound` from a linear
-/// function: how many tets a bound of the error takes goes by it. Reorders `vertices`.
-std::size_t count_linear_parts(const MeshView &mesh, Span<std::int32_t> vertices, double bound, Job &job);
+/// How many tets a bound of the error takes, more or less: by the number of parts into which the vertices are to be
+/// divided until in none the values are off by more than `bound` from a linear function. 0: there is no bound.
+double tets_for_bound(const MeshView &mesh, double bound, Job &job);
 
 }  // namespace tetlod

@@ -57,7 +57,8 @@ class Pipeline {
       of.tets = tets_a_boundary_point * of_boundary + tets_a_sample * samples;
       return of;
     }
-    of.tets = std::max(double(budget_.tets), tets_for_bound());
+    const double bound = options_.max_error * (report_.scalar_max - report_.scalar_min);
+    of.tets = std::max(double(budget_.tets), tets_for_bound(original_.view, bound, job_));
     of.points = of.tets / tets_a_point;
     of.probes =
         double(expected_probes(original_.view, enough_probes(double(budget_.tets), rounds_of(options_, report_))));
@@ -98,16 +99,6 @@ class Pipeline {
       budget_.sigma = less_decimated(sigma);
       sample();
     }
-  }
-
-  /// How many tets the bound of the error takes, more or less; 0: there is none.
-  double tets_for_bound() {
-    const double bound = options_.max_error * (report_.scalar_max - report_.scalar_min);
-    if (!(bound > 0)) return 0;
-    Array<std::int32_t> vertices(&job_.memory);
-    for (std::size_t v = 0; v < original_.view.points.size(); v++) vertices.push_back(std::int32_t(v));
-    const std::size_t parts = count_linear_parts(original_.view, {vertices.data(), vertices.size()}, bound, job_);
-    return std::min(tets_a_part * double(parts), double(report_.tets_in));
   }
 
   [[noreturn]] void fail_bound() const {
