@@ -1,6 +1,6 @@
 #include "boundary_duel.hpp"
 
-#include "decimate_boundary.hpp"
+#include "decimate_and_check.hpp"
 #include "extract_boundary.hpp"
 #include "face_pass.hpp"
 #include "run_rival.hpp"
@@ -44,7 +44,7 @@ class BoundaryStage {
     const Stopwatch watch;
     tetlod::SurfaceTopology topology(stages_.memory);
     tetlod::find_topology(made.points, made.triangles, stages_.job, topology);
-    tetlod::decimate_boundary(made, topology, {}, options, stages_.job);
+    tetlod::decimate_and_check(made, topology, tetlod::Span<const std::uint8_t>(), options, 0, stages_.job);
     return watch.cost();
   }
 
