@@ -69,9 +69,9 @@ Original original_of(vtkUnstructuredGrid *input, vtkInformation *steering, vtkIn
   original.grid = without_ghosts(input);
   vtkDataArray *field = steering_array(*original.grid, steering);
   original.flags = flags_array(*original.grid, flags);
+  original.tets = tets_of(*original.grid, notes);  // first: VTK's triangulation may move what it shares with the grid
   original.values = lend_reals(field);
   original.points = lend_points(original.grid->GetPoints()->GetData());
-  original.tets = tets_of(*original.grid, notes);
   original.arrays.steering = field->GetName() != nullptr ? field->GetName() : "scalars";
   original.arrays.steering_type = is_real(field->GetDataType()) ? field->GetDataType() : VTK_DOUBLE;
   original.arrays.others = carried_arrays(*original.grid, field, original.tets, notes);
