@@ -1,5 +1,6 @@
 // Partitions that are simplified alone, each with its interfaces locked, still fit: bit for bit.
 #include <map>
+#include <ostream>
 #include <set>
 
 #include "fixtures.hpp"
@@ -31,7 +32,13 @@ int part_of(const Cube &cube, std::size_t tet) {
   return (middle[0] > 2.2) + 2 * (middle[1] + 0.6 * middle[0] > 2.6);
 }
 
-class Partitions : public testing::TestWithParam<void (*)(tetlod_context *)> {
+struct Way {
+  const char *name;
+  void (*choose)(tetlod_context *);
+};
+void PrintTo(const Way &way, std::ostream *out) { *out << way.name; }
+
+class Partitions : public testing::TestWithParam<Way> {
  protected:
   static constexpr int count = 4;
   Cube whole{8};
@@ -66,7 +73,7 @@ class Partitions : public testing::TestWithParam<void (*)(tetlod_context *)> {
     for (std::size_t p = 0; p < count; p++) {
       contexts[p] = make_context();
       tetlod_context *const context = contexts[p].get();
-      GetParam()(context);
+      GetParam().choose(context);
       submit(context, parts[p].mesh);
       const tetlod_array flags = array_of(TETLOD_UINT8, parts[p].flags.size(), 1, parts[p].flags.data());
       ASSERT_EQ(tetlod_submit_point_flags(context, &flags), TETLOD_OK) << message_of(context);
@@ -207,7 +214,9 @@ void accurate(tetlod_context *context) {
 }
 void bounded(tetlod_context *context) { tetlod_set_real(context, TETLOD_OPT_MAX_ERROR, 0.02); }
 
-INSTANTIATE_TEST_SUITE_P(Ways, Partitions, testing::Values(as_published, fast, accurate, bounded));
+INSTANTIATE_TEST_SUITE_P(Ways, Partitions,
+                         testing::Values(Way{"published", as_published}, Way{"fast", fast}, Way{"accurate", accurate},
+                                         Way{"bounded", bounded}));
 
 }  // namespace
 }  // namespace tetlod_test
