@@ -288,10 +288,10 @@ enum {
   TETLOD_OPT_CLEAN_EDGES = 6,     /* real, "clean-edges": boundary edges shorter than this fraction of the diagonal are
                                      collapsed before decimation [4, delta]; 0: off */
   TETLOD_OPT_BOUNDARY_LEAF = 7,   /* int, "boundary-leaf": triangles in a leaf of the culling tree [3.3], at most */
-  TETLOD_OPT_TET_LEAF = 8,        /* int, "tet-leaf": tets in a leaf of the interpolation tree [3.5], at most */
-  TETLOD_OPT_THREADS = 9,         /* int, "threads": 0 means one a core; never more than oneTBB has in this process */
-  TETLOD_OPT_SEED = 10,           /* int, "seed": of the shuffles of remeshing's retries and of the error's samples */
-  TETLOD_OPT_TIME_LIMIT = 11,     /* real, "time-limit": seconds for a tetlod_run; 0: none */
+  TETLOD_OPT_TET_LEAF = 8,    /* int, "tet-leaf": tets that go down the tree of the points together [3.5], at most */
+  TETLOD_OPT_THREADS = 9,     /* int, "threads": 0 means one a core; never more than oneTBB has in this process */
+  TETLOD_OPT_SEED = 10,       /* int, "seed": of the shuffles of remeshing's retries and of the error's samples */
+  TETLOD_OPT_TIME_LIMIT = 11, /* real, "time-limit": seconds for a tetlod_run; 0: none */
   /* What happens to a defect of the mesh that can be repaired: int, TETLOD_POLICY_ERROR or TETLOD_POLICY_REPAIR. All
    * but the last default to repair. With an error policy tetlod_run first does all that tetlod_check does. */
   TETLOD_OPT_ON_COINCIDENT = 12, /* "on-coincident": merge the points; error: TETLOD_ERR_MESH_DEGENERATE */

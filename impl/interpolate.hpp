@@ -9,7 +9,7 @@ namespace tetlod {
 
 /// values[i]: the field of `mesh` at points[i], linear in the tet that holds the point. A point outside of every tet
 /// takes the value at the nearest point of the boundary, so that all values are within the field's range.
-/// Only tets whose box holds a point get into the k-d tree, at most `leaf` in a leaf.
+/// At most `leaf` tets go down the tree of the points together.
 void interpolate(const MeshView &mesh, Span<const Triangle> boundary, Span<const Vec3> points, std::int64_t leaf,
                  Job &job, Array<double> &values);
 

@@ -17,7 +17,7 @@ struct Place {
 };
 
 /// places[i]: of points[i]. Of several tets that hold a point (within rounding) the one that holds it best, then the
-/// lowest. Only tets whose box holds a point get into the k-d tree, at most `leaf` in a leaf.
+/// lowest. At most `leaf` tets go down the tree of the points together.
 void locate(const MeshView &mesh, Span<const Triangle> boundary, Span<const Vec3> points, std::int64_t leaf, Job &job,
             Array<Place> &places);
 
