@@ -13,12 +13,14 @@
 #include <vector>
 
 #include "bytes.hpp"
+#include "carried_arrays.hpp"
 #include "demand.hpp"
 #include "failure.hpp"
 #include "host.hpp"
 #include "original.hpp"
 #include "quiet_vtk.hpp"
 #include "read_grid.hpp"
+#include "session.hpp"
 
 namespace fuzz {
 
@@ -58,6 +60,16 @@ void write_values(std::ostream &out) {
   out << '\n';
 }
 
+void write_vectors(std::ostream &out) {
+  for (std::size_t i = 0; i < std::size(places); i++) out << i << ' ' << 2.5 << ' ' << -double(i) << '\n';
+}
+
+/// A number of a region for each.
+void write_regions(std::ostream &out, const Cells &cells) {
+  for (std::size_t c = 0; c < cells.size(); c++) out << 10 + c % 3 << ' ';
+  out << '\n';
+}
+
 std::string legacy_file(const Cells &cells) {
   std::ostringstream out;
   out << "# vtk DataFile Version 3.0\nmade\nASCII\nDATASET UNSTRUCTURED_GRID\n";
@@ -75,6 +87,10 @@ std::string legacy_file(const Cells &cells) {
   for (const Cell &cell : cells) out << cell.type << '\n';
   out << "POINT_DATA " << std::size(places) << "\nSCALARS field double 1\nLOOKUP_TABLE default\n";
   write_values(out);
+  out << "VECTORS velocity float\n";
+  write_vectors(out);
+  out << "CELL_DATA " << cells.size() << "\nSCALARS region int 1\nLOOKUP_TABLE default\n";
+  write_regions(out, cells);
   return out.str();
 }
 
@@ -90,14 +106,19 @@ std::string xml_file(const Cells &cells) {
     out << "<DataArray type=\"" << type << "\" Name=\"" << name << "\" format=\"ascii\">\n"
         << text << "\n</DataArray>\n";
   };
-  std::ostringstream xyz, values;
+  std::ostringstream xyz, values, vectors, regions;
   write_places(xyz);
   write_values(values);
+  write_vectors(vectors);
+  write_regions(regions, cells);
   out << "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n";
   out << "<Piece NumberOfPoints=\"" << std::size(places) << "\" NumberOfCells=\"" << cells.size()
       << "\">\n<PointData>\n";
   array("Float64", "field", values.str());
-  out << "</PointData>\n<Points>\n";
+  array("Float32", "velocity\" NumberOfComponents=\"3", vectors.str());
+  out << "</PointData>\n<CellData>\n";
+  array("Int32", "region", regions.str());
+  out << "</CellData>\n<Points>\n";
   array("Float32", "Points\" NumberOfComponents=\"3", xyz.str());
   out << "</Points>\n<Cells>\n";
   array("Int64", "connectivity", corners.str());
@@ -232,22 +253,40 @@ class FileOnDisk {
   std::filesystem::path path_;
 };
 
-/// What is read goes to the library as the filter hands it over.
-void submit(const tetlod_vtk::Original &original) {
-  tetlod::Context context;
-  tetlod_vtk::submit(context, original);
-  context.check();  // a mesh of a file can be checked: what is wrong with it is in the report
+constexpr double patience = 20;  // seconds for a run
+
+/// Every array of the file is one of the result.
+void run(tetlod::Context &context, const tetlod_vtk::OriginalArrays &arrays) {
+  const tetlod_status status = tetlod_run(context.get());
+  DEMAND(status != TETLOD_ERR_ARGUMENT && status != TETLOD_ERR_STATE, "a mesh of a file can be run: %d", status);
+  check_documented("tetlod_run", status,
+                   {TETLOD_ERR_TIME_LIMIT, TETLOD_ERR_REMESH, TETLOD_ERR_MESH_EMPTY, TETLOD_ERR_MESH_INDEX,
+                    TETLOD_ERR_MESH_NONFINITE, TETLOD_ERR_MESH_DEGENERATE, TETLOD_ERR_MESH_NONMANIFOLD,
+                    TETLOD_ERR_MESH_INTERSECTING});
+  if (status != TETLOD_OK) return;
+  const tetlod::Counts counts = context.fetch_counts();
+  for (const tetlod_vtk::CarriedArray &other : arrays.others) {
+    const std::int64_t tuples = other.association == TETLOD_CELL_FIELD ? counts.tets : counts.points;
+    const auto made = tetlod_vtk::fetch_carried(context, other, tuples);
+    DEMAND(made->GetNumberOfTuples() == tuples && made->GetDataType() == other.type, "array %s is in the result",
+           other.name.c_str());
+  }
 }
 
 /// As the tool and the filter do it: what goes wrong is a Failure or a std::runtime_error, or memory that is not there.
-void read(const std::string &path) {
+/// A mesh of a file can be checked: what is wrong with it is in the report.
+void read(const std::string &path, bool runs) {
   const vtkSmartPointer<cli::VtkMessages> messages = vtkSmartPointer<cli::VtkMessages>::New();
   messages->install();
   std::vector<std::string> notes;
   const auto grid = cli::read_grid(path, *messages, notes);
   const auto original = tetlod_vtk::original_of(grid, nullptr, nullptr, notes);
   messages->check(path, notes);
-  submit(original);
+  tetlod::Context context;
+  context.set_real(TETLOD_OPT_TIME_LIMIT, patience);
+  tetlod_vtk::submit(context, original);
+  context.check();
+  if (runs) run(context, original.arrays);
 }
 
 }  // namespace
@@ -274,7 +313,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
   fuzz::trace("%s\n", file.text.c_str());
   const fuzz::FileOnDisk disk(file);
   try {
-    fuzz::read(disk.path());
+    fuzz::read(disk.path(), size % 4 == 0);
   } catch (const tetlod::Error &error) {
     DEMAND(false, "what a file holds is submitted and checked: %d, %s", error.status(), error.what());
   } catch (const std::runtime_error &failure) {
