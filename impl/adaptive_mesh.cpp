@@ -77,23 +77,32 @@ double AdaptiveMesh::total_error() const {
   return sum;
 }
 
+/// What replace() would make of the error, not summed further than `limit`.
 double AdaptiveMesh::error_after(Span<const std::int32_t> old, Span<const Tet> fresh, const TetFrame *frames,
                                  double limit) const {
-  double sum = 0;
+  double sum = 0, w[4];
   for (std::int32_t t : old)
     for (std::int32_t p = first_probe[std::size_t(t)]; p >= 0; p = next_probe[std::size_t(p)]) {
       const Probe &probe = probes[std::size_t(p)];
-      double best = -std::numeric_limits<double>::infinity(), r = 0, w[4];
-      for (std::size_t i = 0; i < fresh.size() && best < 0; i++) {
-        const double least = frames[i].weights(probe.point, w);
-        if (least <= best) continue;
-        best = least;
-        r = residual(fresh[i], w, probe);
-      }
+      const double r = residual(fresh[home_among(frames, fresh.size(), 0, probe.point, w)], w, probe);
       sum += r * r;
       if (sum > limit) return sum;
     }
   return sum;
+}
+
+bool AdaptiveMesh::is_better(Span<const std::int32_t> old, Span<const Tet> fresh, double price, double old_error,
+                             double &best) const {
+  TetFrame frames[largest_cavity];
+  for (std::size_t i = 0; i < fresh.size(); i++) {
+    if (!is_sound(fresh[i], least_shape)) return false;
+    frames[i] = frame(fresh[i]);
+  }
+  const double cost = price * (double(fresh.size()) - double(old.size())) - old_error;
+  const double change = error_after(old, fresh, frames, best - cost) + cost;
+  if (!(change < best)) return false;
+  best = change;
+  return true;
 }
 
 std::int32_t AdaptiveMesh::slot() {
@@ -156,17 +165,10 @@ void AdaptiveMesh::replace(Span<const std::int32_t> old, Span<const Tet> fresh, 
   }
   Array<TetFrame> frames(&memory_);
   for (const Tet &t : fresh) frames.push_back(frame(t));
+  double w[4];
   for (std::size_t i = homeless.size(); i-- > 0;) {
-    double best = -std::numeric_limits<double>::infinity(), w[4];
-    std::size_t home = 0;
-    for (std::size_t k = 0; k < fresh.size() && best < 0; k++) {
-      const double least = frames[k].weights(probes[std::size_t(homeless[i])].point, w);
-      if (least > best) {
-        best = least;
-        home = k;
-      }
-    }
-    put_probe(homeless[i], made[home]);
+    const Vec3 &p = probes[std::size_t(homeless[i])].point;
+    put_probe(homeless[i], made[home_among(frames.data(), frames.size(), 0, p, w)]);
   }
   for (std::int32_t t : made) {
     touch(t);
@@ -174,36 +176,34 @@ void AdaptiveMesh::replace(Span<const std::int32_t> old, Span<const Tet> fresh, 
   }
 }
 
-void AdaptiveMesh::star(std::int32_t v, Array<std::int32_t> &around) const {
-  tets_with(tet_of[std::size_t(v)], &v, 1, around);
+/// From the tets in `around` on, across faces that hold the simplex. push: false where the list is full.
+template <class List, class Push>
+bool AdaptiveMesh::flood(const std::int32_t *simplex, std::size_t size, List &around, const Push &push) const {
+  for (std::size_t i = 0; i < around.size(); i++) {
+    const Tet &tet = tets[std::size_t(around[i])];
+    for (std::size_t k = 0; k < 4; k++) {
+      const std::int32_t n = neighbours[std::size_t(around[i])][k];
+      if (n < 0 || std::find(simplex, simplex + size, tet[k]) != simplex + size) continue;
+      if (std::find(around.begin(), around.end(), n) == around.end() && !push(n)) return false;
+    }
+  }
+  return true;
 }
 
 bool AdaptiveMesh::star(std::int32_t v, Cavity &around) const {
   around.clear();
   around.push(tet_of[std::size_t(v)]);
-  for (std::size_t i = 0; i < around.size(); i++) {
-    const Tet &tet = tets[std::size_t(around[i])];
-    for (std::size_t k = 0; k < 4; k++) {
-      const std::int32_t n = neighbours[std::size_t(around[i])][k];
-      if (n < 0 || tet[k] == v || around.has(n)) continue;
-      if (!around.push(n)) return false;
-    }
-  }
-  return true;
+  return flood(&v, 1, around, [&](std::int32_t t) { return around.push(t); });
 }
 
 void AdaptiveMesh::tets_with(std::int32_t t, const std::int32_t *simplex, std::size_t size,
                              Array<std::int32_t> &around) const {
   around.clear();
   around.push_back(t);
-  for (std::size_t i = 0; i < around.size(); i++) {
-    const Tet &tet = tets[std::size_t(around[i])];
-    for (std::size_t k = 0; k < 4; k++) {
-      const std::int32_t n = neighbours[std::size_t(around[i])][k];
-      if (n < 0 || std::find(simplex, simplex + size, tet[k]) != simplex + size) continue;
-      if (std::find(around.begin(), around.end(), n) == around.end()) around.push_back(n);
-    }
-  }
+  flood(simplex, size, around, [&](std::int32_t n) {
+    around.push_back(n);
+    return true;
+  });
 }
 
 }  // namespace tetlod

@@ -56,6 +56,24 @@ inline bool is_sound(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &d,
   return volume * volume > limit * limit * longest * longest * longest;
 }
 
+/// The frame in which p lies, or, outside of all, the one that it is least outside of; `first` before others. Its
+/// weights.
+inline std::size_t home_among(const TetFrame *frames, std::size_t count, std::size_t first, const Vec3 &p,
+                              double w[4]) {
+  double best = frames[first].weights(p, w);
+  std::size_t home = first;
+  for (std::size_t k = 0; k < count && best < 0; k++) {
+    double other[4];
+    if (k == first) continue;
+    const double least = frames[k].weights(p, other);
+    if (least <= best) continue;
+    best = least;
+    home = k;
+    std::copy(other, other + 4, w);
+  }
+  return home;
+}
+
 /// What AdaptiveMesh::fixed says of a vertex beside 0 and 1: on the boundary, where the solid touches itself.
 constexpr std::uint8_t touching = 2;
 
@@ -127,9 +145,16 @@ class AdaptiveMesh {
   void measure(std::int32_t t);
   double total_error() const;
 
-  /// What replace() would make of the error: the probes of the old tets in the fresh ones, whose frames are given. Not
-  /// summed further than `limit`.
-  double error_after(Span<const std::int32_t> old, Span<const Tet> fresh, const TetFrame *frames, double limit) const;
+  double error_of(Span<const std::int32_t> some) const {
+    double sum = 0;
+    for (std::int32_t t : some) sum += error[std::size_t(t)];
+    return sum;
+  }
+
+  /// Whether `fresh` in place of `old`, of `old_error`, changes the sum of squares, and `price` for every tet more, by
+  /// less than `best`, which it then becomes. Not where a tet would be unsound.
+  bool is_better(Span<const std::int32_t> old, Span<const Tet> fresh, double price, double old_error,
+                 double &best) const;
 
   /// From here on touched() says of tets whether something has become of one of them.
   void begin_batch() { batch_++; }
@@ -147,9 +172,8 @@ class AdaptiveMesh {
   template <std::size_t most, class Visit>
   bool ring(std::int32_t t, std::int32_t a, std::int32_t b, Few<std::int32_t, most> &around,
             Few<std::int32_t, most> &vertices, const Visit &visit) const;
-  /// All tets of a vertex.
-  void star(std::int32_t v, Array<std::int32_t> &around) const;
-  /// False where there are more than a cavity holds.
+  /// All tets of a vertex. False where there are more than a cavity holds.
+  void star(std::int32_t v, Array<std::int32_t> &around) const { tets_with(tet_of[std::size_t(v)], &v, 1, around); }
   bool star(std::int32_t v, Cavity &around) const;
   /// All tets with the `size` vertices of a simplex, of which t is one.
   void tets_with(std::int32_t t, const std::int32_t *simplex, std::size_t size, Array<std::int32_t> &around) const;
@@ -162,6 +186,9 @@ class AdaptiveMesh {
   };
   std::int32_t slot();
   void find_touching(Job &job);
+  double error_after(Span<const std::int32_t> old, Span<const Tet> fresh, const TetFrame *frames, double limit) const;
+  template <class List, class Push>
+  bool flood(const std::int32_t *simplex, std::size_t size, List &around, const Push &push) const;
 
   Memory &memory_;
   Array<std::uint32_t> touched_;  // the batch in which each tet changed last

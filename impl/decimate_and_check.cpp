@@ -11,13 +11,6 @@ bool can_be_checked_afterwards(const SurfaceTopology &topology) {
   return topology.components == 1 && topology.nonmanifold_edges == 0 && topology.nonmanifold_points == 0;
 }
 
-void copy(const Surface &from, Surface &to) {
-  to.points.assign(from.points.begin(), from.points.end());
-  to.scalars.assign(from.scalars.begin(), from.scalars.end());
-  to.origin.assign(from.origin.begin(), from.origin.end());
-  to.triangles.assign(from.triangles.begin(), from.triangles.end());
-}
-
 }  // namespace
 
 DecimateReport decimate_and_check(Surface &surface, const SurfaceTopology &topology, const DecimateOptions &options,
@@ -25,7 +18,7 @@ DecimateReport decimate_and_check(Surface &surface, const SurfaceTopology &topol
   // Hardly ever does a collapse make a crossing, and looking for one takes as long as all the rest.
   if (can_be_checked_afterwards(topology)) {
     Surface simplified(job.memory);
-    copy(surface, simplified);
+    simplified = surface;
     DecimateOptions careless = options;
     careless.careful = false;
     const DecimateReport report = decimate(simplified, careless);

@@ -7,10 +7,9 @@
 #include <cmath>
 
 #include "lindstrom_turk.hpp"
+#include "solver4.hpp"
 
 namespace tetlod {
-
-using Vec4 = std::array<double, 4>;
 
 inline double dot4(const Vec4 &a, const Vec4 &b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]; }
 
@@ -59,40 +58,6 @@ inline FieldQuadric quadric_of(const Vec4 &p, const Vec4 &q, const Vec4 &r) {
   return quadric;
 }
 
-/// A symmetric positive definite 4 x 4 system by Cholesky; false when it is singular within rounding.
-class Solver4 {
- public:
-  explicit Solver4(const std::array<double, 10> &a) : l_(a) {
-    const double least = 1e-12 * (a[0] + a[2] + a[5] + a[9]);
-    for (std::size_t i = 0; i < 4; i++)
-      for (std::size_t j = 0; j <= i; j++) {
-        double sum = at(i, j);
-        for (std::size_t k = 0; k < j; k++) sum -= at(i, k) * at(j, k);
-        if (i == j && !(sum > least)) return;
-        at(i, j) = i == j ? std::sqrt(sum) : sum / at(j, j);
-      }
-    regular_ = true;
-  }
-  bool regular() const { return regular_; }
-  Vec4 solve(Vec4 b) const {
-    for (std::size_t i = 0; i < 4; i++) {
-      for (std::size_t k = 0; k < i; k++) b[i] -= at(i, k) * b[k];
-      b[i] /= at(i, i);
-    }
-    for (std::size_t i = 4; i-- > 0;) {
-      for (std::size_t k = i + 1; k < 4; k++) b[i] -= at(k, i) * b[k];
-      b[i] /= at(i, i);
-    }
-    return b;
-  }
-
- private:
-  double &at(std::size_t i, std::size_t j) { return l_[i * (i + 1) / 2 + j]; }
-  double at(std::size_t i, std::size_t j) const { return l_[i * (i + 1) / 2 + j]; }
-  std::array<double, 10> l_;
-  bool regular_ = false;
-};
-
 /// Where the quadric and a small pull to the edge's middle have their least, on the plane that keeps the volume
 /// [Lindstrom and Turk] where there is one. x is the edge's middle before. False when
 /// rounding leaves no answer.
@@ -101,7 +66,7 @@ inline bool place_by_quadric(const FieldQuadric &quadric, const VolumeSums &volu
   std::array<double, 10> a = quadric.a;
   const double weight = pull * (a[0] + a[2] + a[5] + a[9]) / 4;
   for (std::size_t i : {0, 2, 5, 9}) a[i] += weight;
-  const Solver4 solver(a);
+  const Solver4 solver(a, 1e-12 * (a[0] + a[2] + a[5] + a[9]));
   if (!solver.regular()) return false;
   const Vec4 middle = x;
   // From the middle on: what cancels there costs no digits.

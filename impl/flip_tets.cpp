@@ -41,26 +41,6 @@ class FlipFinder {
     return a != b ? a > b : t < other;
   }
 
-  double error_of(Span<const std::int32_t> old) const {
-    double sum = 0;
-    for (std::int32_t t : old) sum += mesh_.error[std::size_t(t)];
-    return sum;
-  }
-
-  /// Whether `fresh` in place of flip.old is better than the best change so far.
-  bool is_better(const Flip &flip, const FreshTets &fresh, double old_error, double &best) const {
-    TetFrame frames[most_fresh];
-    for (std::size_t i = 0; i < fresh.size(); i++) {
-      if (!mesh_.is_sound(fresh[i], least_shape)) return false;
-      frames[i] = mesh_.frame(fresh[i]);
-    }
-    const double cost = price_ * (double(fresh.size()) - double(flip.old.size())) - old_error;
-    const double change = mesh_.error_after(flip.old, fresh, frames, best - cost) + cost;
-    if (!(change < best)) return false;
-    best = change;
-    return true;
-  }
-
   /// Not for a gain of rounding: flips would go round in circles.
   double least_gain(double old_error) const { return -1e-6 * (old_error + price_) - 1e-300; }
 
@@ -85,7 +65,7 @@ class FlipFinder {
       flip.fresh.push({near, a, b, far});
     }
     double best = least_gain(old_error);
-    return is_better(flip, flip.fresh, old_error, best);
+    return mesh_.is_better(flip.old, flip.fresh, price_, old_error, best);
   }
 
   /// An inner edge (a, b) gives way to triangles of its ring.
@@ -93,13 +73,13 @@ class FlipFinder {
     Few<std::int32_t, longest_ring> ring;
     if (!mesh_.ring(t, a, b, flip.old, ring, [&](std::int32_t other) { return !is_before(other, t); })) return false;
     if (ring.size() < 3) return false;
-    const double old_error = error_of(flip.old);
+    const double old_error = mesh_.error_of(flip.old);
     double best = least_gain(old_error);
     bool found = false;
     const std::size_t n = ring.size(), ways = n == 3 ? 1 : n == 4 ? 2 : n;
     for (std::size_t apex = 0; apex < ways; apex++) {
       const FreshTets fresh = fan(ring, a, b, apex);
-      if (!is_better(flip, fresh, old_error, best)) continue;
+      if (!mesh_.is_better(flip.old, fresh, price_, old_error, best)) continue;
       flip.fresh = fresh;
       found = true;
     }

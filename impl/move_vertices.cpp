@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "solver4.hpp"
 #include "sweep.hpp"
 
 namespace tetlod {
@@ -14,31 +15,6 @@ constexpr double damping = 1e-3;
 constexpr double lengths[] = {1, 0.4, 0.15};
 /// A star must not keep more of its error, and what is expected to gain less than this is not tried.
 constexpr double least_part = 0.999, least_gain = 0.005;
-
-/// x of the symmetric positive definite a x = b; false where it is not.
-bool solve_cholesky(double a[4][4], double b[4]) {
-  for (int i = 0; i < 4; i++) {
-    for (int j = 0; j <= i; j++) {
-      double sum = a[i][j];
-      for (int k = 0; k < j; k++) sum -= a[i][k] * a[j][k];
-      if (i == j) {
-        if (!(sum > 0)) return false;
-        a[i][i] = std::sqrt(sum);
-      } else {
-        a[i][j] = sum / a[j][j];
-      }
-    }
-  }
-  for (int i = 0; i < 4; i++) {
-    for (int k = 0; k < i; k++) b[i] -= a[i][k] * b[k];
-    b[i] /= a[i][i];
-  }
-  for (int i = 3; i >= 0; i--) {
-    for (int k = i + 1; k < 4; k++) b[i] -= a[k][i] * b[k];
-    b[i] /= a[i][i];
-  }
-  return std::isfinite(b[0] + b[1] + b[2] + b[3]);
-}
 
 /// Where a probe will be.
 struct Home {
@@ -85,7 +61,7 @@ class MovedStar {
     for (std::size_t i = 0; i < star_.size(); i++)
       for (std::int32_t p = mesh_.first_probe[std::size_t(star_[i])]; p >= 0; p = mesh_.next_probe[std::size_t(p)]) {
         double w[4];
-        const std::size_t home = locate(mesh_.probes[std::size_t(p)].point, i, w);
+        const std::size_t home = home_among(frames_, star_.size(), i, mesh_.probes[std::size_t(p)].point, w);
         double r = -mesh_.probes[std::size_t(p)].value;
         for (int k = 0; k < 4; k++) r += w[k] * values_[home][k];
         sum += r * r;
@@ -97,20 +73,6 @@ class MovedStar {
   }
 
  private:
-  std::size_t locate(const Vec3 &p, std::size_t hint, double w[4]) const {
-    double best = frames_[hint].weights(p, w);
-    std::size_t home = hint;
-    for (std::size_t k = 0; k < star_.size() && best < 0; k++) {
-      double other[4];
-      const double least = frames_[k].weights(p, other);
-      if (least <= best) continue;
-      best = least;
-      home = k;
-      std::copy(other, other + 4, w);
-    }
-    return home;
-  }
-
   const AdaptiveMesh &mesh_;
   const Cavity &star_;
   bool positive_ = true;
@@ -128,8 +90,7 @@ class MoveFinder {
     move.old.clear();
     for (std::int32_t t : tets_.of(v))
       if (!move.old.push(t)) return false;
-    double old_error = 0;
-    for (std::int32_t t : move.old) old_error += mesh_.error[std::size_t(t)];
+    const double old_error = mesh_.error_of(move.old);
     Step step;
     if (!(old_error > least_) || !gauss_newton(v, move.old, step)) return false;
     if (!(step.gain > least_gain * old_error)) return false;
@@ -145,14 +106,16 @@ class MoveFinder {
 
  private:
   struct Step {
-    double by[4] = {};
+    Vec4 by{};
     double gain = 0;   ///< to expect
     double low, high;  ///< of the values around
   };
 
   /// A corner that moves by d takes its linear function along: the residual at p changes by w (value - gradient . d).
   bool gauss_newton(std::int32_t v, const Cavity &star, Step &step) const {
-    double a[4][4] = {}, size2 = 0;
+    double size2 = 0;
+    std::array<double, 10> a{};  // the lower triangle
+    Vec4 down{};
     step.low = step.high = mesh_.values[std::size_t(v)];
     for (std::int32_t t : star) {
       const Tet &tet = mesh_.tets[std::size_t(t)];
@@ -171,21 +134,24 @@ class MoveFinder {
         step.low = std::min(step.low, probe.value);
         step.high = std::max(step.high, probe.value);
       });
-      for (int m = 0; m < 4; m++) {
-        for (int n = 0; n <= m; n++) a[m][n] += ww * j[m] * j[n];
-        step.by[m] -= wr * j[m];
+      for (std::size_t m = 0, entry = 0; m < 4; m++) {
+        for (std::size_t n = 0; n <= m; n++) a[entry++] += ww * j[m] * j[n];
+        down[m] -= wr * j[m];
       }
     }
     size2 /= 3 * double(star.size());
     // A step of the star's size costs as much as a residual of the field's change over the star.
-    const double change2 = (a[0][0] + a[1][1] + a[2][2]) * size2 / std::max(a[3][3], 1e-300);
-    if (!(a[3][3] > 0)) return false;
-    for (int m = 0; m < 3; m++) a[m][m] += damping * a[3][3] * std::max(change2, 1e-300) / size2;
-    a[3][3] *= 1 + damping;
-    const double down[4] = {step.by[0], step.by[1], step.by[2], step.by[3]};
-    if (!solve_cholesky(a, step.by)) return false;
+    double &of_value = a[9];
+    const double change2 = (a[0] + a[2] + a[5]) * size2 / std::max(of_value, 1e-300);
+    if (!(of_value > 0)) return false;
+    for (std::size_t m : {0, 2, 5}) a[m] += damping * of_value * std::max(change2, 1e-300) / size2;
+    of_value *= 1 + damping;
+    const Solver4 solver(a, 0);
+    if (!solver.regular()) return false;
+    step.by = solver.solve(down);
     step.gain = 0;
-    for (int m = 0; m < 4; m++) step.gain += down[m] * step.by[m];
+    for (std::size_t m = 0; m < 4; m++) step.gain += down[m] * step.by[m];
+    if (!std::isfinite(step.gain)) return false;
     const double far2 = (step.by[0] * step.by[0] + step.by[1] * step.by[1] + step.by[2] * step.by[2]) / (0.25 * size2);
     if (far2 > 1)
       for (double &by : step.by) by /= std::sqrt(far2);

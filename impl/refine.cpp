@@ -81,8 +81,8 @@ class Refinement {
     }
   }
 
-  void move(std::size_t first) { report_.moves += move_vertices(first, job_, mesh_); }
-  void flip() { report_.flips += flip_tets(price_of_tet * mean_error(), job_, mesh_); }
+  void move(std::size_t first) { move_vertices(first, job_, mesh_); }
+  void flip() { flip_tets(price_of_tet * mean_error(), job_, mesh_); }
   void remove() { remove_vertices(price_of_vertex * mean_error(), job_, mesh_); }
   void insert(std::int64_t tets) {
     if (tets > 0) insert_vertices(tets, job_, mesh_);

@@ -16,7 +16,7 @@ struct RefineOptions {
 };
 
 struct RefineReport {
-  std::int64_t inserted = 0, inserted_on_boundary = 0, flips = 0, moves = 0;
+  std::int64_t inserted = 0, inserted_on_boundary = 0;
   std::int64_t removed_samples = 0, removed_steiner = 0;
   std::int64_t beyond_bound = 0;  ///< original vertices where the bound could not be held
   double max_error = 0;           ///< at the original vertices; those outside count with a bound alone

@@ -23,8 +23,7 @@ class CollapseFinder {
   bool find(std::int32_t v, Collapse &collapse) const {
     if (mesh_.tet_of[std::size_t(v)] < 0 || !mesh_.star(v, collapse.old)) return false;
     collapse.vertex = v;
-    double old_error = 0;
-    for (std::int32_t t : collapse.old) old_error += mesh_.error[std::size_t(t)];
+    const double old_error = mesh_.error_of(collapse.old);
     if (old_error > busy * price_) return false;
     Cavity link;
     for (std::int32_t t : collapse.old)
@@ -34,7 +33,7 @@ class CollapseFinder {
     bool found = false;
     for (std::int32_t u : link) {
       const Filling fresh = moved_to(v, u, collapse.old);
-      if (!is_better(collapse.old, fresh, old_error, best)) continue;
+      if (!mesh_.is_better(collapse.old, fresh, price_, old_error, best)) continue;
       collapse.fresh = fresh;
       found = true;
     }
@@ -51,19 +50,6 @@ class CollapseFinder {
       fresh.push(tet);
     }
     return fresh;
-  }
-
-  bool is_better(const Cavity &old, const Filling &fresh, double old_error, double &best) const {
-    TetFrame frames[largest_cavity];
-    for (std::size_t i = 0; i < fresh.size(); i++) {
-      if (!mesh_.is_sound(fresh[i], least_shape)) return false;
-      frames[i] = mesh_.frame(fresh[i]);
-    }
-    const double cost = price_ * (double(fresh.size()) - double(old.size())) - old_error;
-    const double change = mesh_.error_after(old, fresh, frames, best - cost) + cost;
-    if (!(change < best)) return false;
-    best = change;
-    return true;
   }
 
   double price_;
