@@ -7,47 +7,21 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
-#include <memory>
 #include <stdexcept>
 #include <string>
 
+#include "bench_context.hpp"
 #include "bench_mesh.hpp"
 #include "tetlod.h"
 
 namespace {
 
-struct Destroy {
-  void operator()(tetlod_context *context) const { tetlod_destroy(context); }
-};
-using Context = std::unique_ptr<tetlod_context, Destroy>;
-
-void check(tetlod_status status, const tetlod_context *context) {
-  if (status == TETLOD_OK) return;
-  char message[512] = "";
-  tetlod_last_message(context, message, sizeof message);
-  throw std::runtime_error(message);
-}
-
-tetlod_array lent(std::int32_t type, std::size_t tuples, std::int32_t components, const void *data) {
-  tetlod_array array{};
-  array.struct_size = sizeof array;
-  array.type = type;
-  array.tuples = static_cast<std::int64_t>(tuples);
-  array.components = components;
-  array.data = const_cast<void *>(data);
-  return array;
-}
+using bench::check;
+using bench::Context;
 
 Context make_context(const bench::Mesh &mesh) {
-  tetlod_context *made = nullptr;
-  check(tetlod_create(nullptr, &made), nullptr);
-  Context context(made);
-  const tetlod_array points = lent(TETLOD_FLOAT64, mesh.points.size(), 3, mesh.points.data());
-  const tetlod_array tets = lent(TETLOD_INT32, mesh.tets.size(), 4, mesh.tets.data());
-  const tetlod_array values = lent(TETLOD_FLOAT64, mesh.values.size(), 1, mesh.values.data());
-  check(tetlod_submit_points(made, &points), made);
-  check(tetlod_submit_tets(made, &tets, 0), made);
-  check(tetlod_submit_scalars(made, "scalar", &values), made);
+  Context context = bench::make_context();
+  bench::submit(context.get(), mesh);
   return context;
 }
 

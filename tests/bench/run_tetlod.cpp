@@ -1,27 +1,13 @@
 #include "run_tetlod.hpp"
 
-#include <memory>
-#include <stdexcept>
+#include "bench_context.hpp"
 
 namespace bench {
 namespace {
 
-struct Destroy {
-  void operator()(tetlod_context *context) const { tetlod_destroy(context); }
-};
-using Context = std::unique_ptr<tetlod_context, Destroy>;
-
-void check(tetlod_status status, const tetlod_context *context) {
-  if (status == TETLOD_OK) return;
-  std::string message(tetlod_last_message(context, nullptr, 0), '\0');
-  tetlod_last_message(context, message.data(), message.size() + 1);
-  throw std::runtime_error("tetlod: " + (message.empty() ? tetlod_status_text(status) : message));
-}
-
-Context make_context(const Parameters &parameters) {
-  tetlod_context *made = nullptr;
-  check(tetlod_create(nullptr, &made), nullptr);
-  Context context(made);
+Context context_for(const Parameters &parameters) {
+  Context context = make_context();
+  tetlod_context *const made = context.get();
   check(tetlod_set_preset(made, parameters.preset), made);
   if (parameters.preset == TETLOD_PRESET_PAPER) {
     check(tetlod_set_rho(made, parameters.rho), made);
@@ -58,26 +44,6 @@ class StageClock {
   std::size_t stage_ = 0;
   double last_ = cpu_seconds_of(RUSAGE_SELF);
 };
-
-// The library reads what it is lent and writes nothing there.
-tetlod_array lent(std::int32_t type, std::size_t tuples, std::int32_t components, const void *data) {
-  tetlod_array array{};
-  array.struct_size = sizeof array;
-  array.type = type;
-  array.tuples = static_cast<std::int64_t>(tuples);
-  array.components = components;
-  array.data = const_cast<void *>(data);
-  return array;
-}
-
-void submit(tetlod_context *context, const Mesh &mesh) {
-  const tetlod_array points = lent(TETLOD_FLOAT64, mesh.points.size(), 3, mesh.points.data());
-  const tetlod_array tets = lent(TETLOD_INT32, mesh.tets.size(), 4, mesh.tets.data());
-  const tetlod_array values = lent(TETLOD_FLOAT64, mesh.values.size(), 1, mesh.values.data());
-  check(tetlod_submit_points(context, &points), context);
-  check(tetlod_submit_tets(context, &tets, 0), context);
-  check(tetlod_submit_scalars(context, "scalar", &values), context);
-}
 
 struct Views {
   tetlod_array points, tets, values;
@@ -120,7 +86,7 @@ const char *preset_name(std::int32_t preset) {
 TetlodRun run_tetlod(const Mesh &mesh, const Parameters &parameters) {
   TetlodRun run{};
   const Stopwatch watch;
-  Context context = make_context(parameters);
+  Context context = context_for(parameters);
   submit(context.get(), mesh);
   StageClock clock;
   check(tetlod_set_progress(context.get(), StageClock::tick, &clock), context.get());

@@ -36,15 +36,8 @@ class Decimate : public testing::Test {
     ASSERT_TRUE(crossings(original, host.memory).empty()) << "the test's own surface crosses itself";
   }
 
-  static void copy(const Surface &from, Surface &to) {
-    to.points.assign(from.points.begin(), from.points.end());
-    to.scalars.assign(from.scalars.begin(), from.scalars.end());
-    to.origin.assign(from.origin.begin(), from.origin.end());
-    to.triangles.assign(from.triangles.begin(), from.triangles.end());
-  }
-
   void decimate(const DecimateOptions &options) {
-    copy(original, result);
+    result = original;
     report = decimate_boundary(result, topology, {locked.data(), locked.size()}, options, host.job);
   }
   void decimate(double sigma, double lambda = 0.1) { decimate(DecimateOptions{sigma, lambda, 0}); }

@@ -16,16 +16,16 @@ TEST_F(Decimate, WhatCrossesAfterwardsIsDoneAgainWithCare) {
   options.careful = true;
   decimate(options);
   Surface careful(host.memory);
-  copy(result, careful);
-  copy(original, result);
+  careful = result;
+  result = original;
   report = decimate_and_check(result, topology, {}, options, 0, host.job);
   expect_sound();
   EXPECT_EQ(result.triangles, careful.triangles);
 
   start_with(sphere(host.memory, 12));  // where nothing crosses, care changes nothing
   decimate(options);
-  copy(result, careful);
-  copy(original, result);
+  careful = result;
+  result = original;
   report = decimate_and_check(result, topology, {}, options, 0, host.job);
   EXPECT_EQ(result.triangles, careful.triangles);
 }

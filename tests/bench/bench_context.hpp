@@ -1,0 +1,28 @@
+// The C ABI as the benchmarks call it: contexts that end by themselves, and statuses that are exceptions.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+#include "bench_mesh.hpp"
+#include "tetlod.h"
+
+namespace bench {
+
+struct Destroy {
+  void operator()(tetlod_context *context) const { tetlod_destroy(context); }
+};
+using Context = std::unique_ptr<tetlod_context, Destroy>;
+
+// Throws std::runtime_error with the context's message; nullptr: the thread's own.
+void check(tetlod_status status, const tetlod_context *context);
+
+Context make_context();
+
+// The library reads what it is lent and writes nothing there.
+tetlod_array lent(std::int32_t type, std::size_t tuples, std::int32_t components, const void *data);
+
+// The mesh must stay.
+void submit(tetlod_context *context, const Mesh &mesh);
+
+}  // namespace bench
