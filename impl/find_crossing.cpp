@@ -27,12 +27,12 @@ long long origin(const Surface &surface, std::int32_t triangle, std::size_t k, s
   return surface.origin[std::size_t(surface.triangles[std::size_t(triangle)][k])] + index_base;
 }
 
-/// The winding number in the middle of a triangle, one half for itself: one half on a sound surface, where material is
-/// on one side and none on the other.
+/// The winding number in the middle of a triangle: one half on a sound surface, where material is on one side and none
+/// on the other.
 double winding_on(const Surface &surface, std::int32_t triangle) {
   const std::array<Vec3, 3> own = corners(surface, triangle);
   const Vec3 middle = (own[0] + own[1] + own[2]) / 3.0;
-  double sum = 0.5;
+  double sum = 0;
   for (std::int32_t t = 0; t < std::int32_t(surface.triangles.size()); t++) {
     if (t == triangle) continue;
     const std::array<Vec3, 3> other = corners(surface, t);

@@ -286,6 +286,34 @@ TEST_F(Topology, CrossingsAreFound) {
   }
 }
 
+/// Only what lies in material is refused: not what lies beside it, and no cavity.
+TEST_F(Topology, SolidsInSolidsAreRefused) {
+  const auto nested = [&](Surface surface) {
+    complete(surface, [](const Vec3 &) { return 0.0; });
+    find(surface);
+    try {
+      refuse_nested_solids(surface, topology, 0, host.job);
+      return false;
+    } catch (const Error &error) {
+      EXPECT_EQ(error.status(), Status::mesh_intersecting);
+      return true;
+    }
+  };
+  const auto with = [&](const Surface &other, bool turned) {
+    Surface surface = sphere(host.memory, 6);
+    append(surface, other, turned);
+    return surface;
+  };
+  EXPECT_FALSE(nested(sphere(host.memory, 6)));
+  EXPECT_FALSE(nested(box(host.memory, 3)));
+  EXPECT_FALSE(nested(with(sphere(host.memory, 5, 1, Vec3(3, 0, 0)), false)));
+  EXPECT_FALSE(nested(with(sphere(host.memory, 5, 0.5), true)));
+  EXPECT_TRUE(nested(with(sphere(host.memory, 5, 0.5), false)));
+  Surface in_cavity = with(sphere(host.memory, 5, 0.7), true);
+  append(in_cavity, sphere(host.memory, 4, 0.4));
+  EXPECT_FALSE(nested(std::move(in_cavity)));
+}
+
 // What is no boundary of a solid
 
 TEST_F(Topology, AnOpenSurfaceIsRefused) {
