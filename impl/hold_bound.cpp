@@ -15,6 +15,8 @@ constexpr double margin = 1e-3;
 /// A vertex as near as this to a face or an edge goes onto it, or the value across it would be another; less near,
 /// where that is not enough.
 constexpr double snaps[] = {1e-4, 1e-6, 1e-9};
+/// So near to a corner a vertex is that corner; less near, where no other way is left.
+constexpr double at_corner = 1e-6, near_corner = 1e-3;
 /// Flatter tets than elsewhere are taken, for the bound's sake.
 constexpr double flattest = 1e-9;
 /// Sweeps that also flip; the sweeps after them insert alone, which ends.
@@ -37,13 +39,12 @@ LargestError largest_in(const AdaptiveMesh &mesh, std::int32_t t) {
   return largest;
 }
 
-/// The corner that p is: its value becomes the original's there.
-bool correct_corner(const AdaptiveMesh &mesh, std::int32_t t, const Vec3 &p, std::int32_t &corner) {
+/// The corner of t that p is, but for `tolerance` in weight; -1 when it is none.
+std::int32_t corner_at(const AdaptiveMesh &mesh, std::int32_t t, const Vec3 &p, double tolerance) {
   double w[4];
   mesh.frame(t).weights(p, w);
   const auto most = std::size_t(std::max_element(w, w + 4) - w);
-  corner = mesh.tets[std::size_t(t)][most];
-  return w[most] > 1 - 1e-6;
+  return w[most] > 1 - tolerance ? mesh.tets[std::size_t(t)][most] : -1;
 }
 
 class Bound {
@@ -77,17 +78,18 @@ class Bound {
   }
 
   bool serve(std::int32_t t, const Probe probe) {
-    std::int32_t corner;
-    if (correct_corner(mesh_, t, probe.point, corner)) return give_value(corner, probe.value);
+    if (const std::int32_t corner = corner_at(mesh_, t, probe.point, at_corner); corner >= 0)
+      return give_value(corner, probe.value);
     for (double snap : snaps)
       if (insert_vertex(t, probe.point, probe.value, snap, flattest, mesh_)) {
         mesh_.kept.back() = 1;
         return true;
       }
-    return false;
+    const std::int32_t corner = corner_at(mesh_, t, probe.point, near_corner);
+    return corner >= 0 && give_value(corner, probe.value);
   }
 
-  /// Once a vertex has been given its value it is not given another.
+  /// The original's there. Once a vertex has been given its value it is not given another.
   bool give_value(std::int32_t v, double value) {
     if (mesh_.kept[std::size_t(v)]) return false;
     mesh_.kept[std::size_t(v)] = 1;
