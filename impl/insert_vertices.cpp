@@ -24,14 +24,31 @@ Vec3 centre_of_residuals(const AdaptiveMesh &mesh, std::int32_t t) {
   return sum / total;
 }
 
+double linear_value(const AdaptiveMesh &mesh, std::int32_t t, const Vec3 &p) {
+  double w[4], value = 0;
+  mesh.frame(t).weights(p, w);
+  for (int k = 0; k < 4; k++) value += w[k] * mesh.value(t, k);
+  return value;
+}
+
+/// What `value` at p becomes at another place in t, not beyond what there is.
+double carried_along(const AdaptiveMesh &mesh, std::int32_t t, const Vec3 &p, double value, const Vec3 &place) {
+  double low = value, high = value;
+  for (int k = 0; k < 4; k++) {
+    low = std::min(low, mesh.value(t, k));
+    high = std::max(high, mesh.value(t, k));
+  }
+  return std::clamp(value + linear_value(mesh, t, place) - linear_value(mesh, t, p), low, high);
+}
+
 /// The value at p in t by least squares over its probes, where the hat function of the vertex to be is least weight.
 double value_at(const AdaptiveMesh &mesh, std::int32_t t, const Vec3 &p) {
   const TetFrame frame = mesh.frame(t);
-  double at_p[4], above = 0, below = 0, value = 0;
+  const double value = linear_value(mesh, t, p);
+  double at_p[4], above = 0, below = 0;
   frame.weights(p, at_p);
   double low = mesh.value(t, 0), high = low;
   for (int k = 0; k < 4; k++) {
-    value += at_p[k] * mesh.value(t, k);
     low = std::min(low, mesh.value(t, k));
     high = std::max(high, mesh.value(t, k));
   }
@@ -96,7 +113,7 @@ bool insert_vertex(std::int32_t t, const Vec3 &p, double value, double snap, dou
       mesh.points.pop_back();
       return false;
     }
-  mesh.values.push_back(value);
+  mesh.values.push_back(carried_along(mesh, t, p, value, place));
   mesh.fixed.push_back(on_boundary);
   mesh.kept.push_back(0);
   mesh.tet_of.push_back(-1);
