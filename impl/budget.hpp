@@ -15,12 +15,17 @@ constexpr double first_ratio = 0.05;
 
 inline double ratio_of(const Options &options) { return options.target_ratio > 0 ? options.target_ratio : first_ratio; }
 
+/// A coarse mesh by collapsing edges is more accurate, one from samples is there sooner.
+inline bool collapses_edges(const Options &options) {
+  return options.effort == effort_accurate && options.clean_edges == 0;
+}
+
 /// Rounds of refine(), after the pass that every run with a target has. A small mesh is done soon, and has few vertices
 /// to go by: it gets more.
 inline int rounds_of(const Options &options, const Report &report) {
-  constexpr double least = 4, most = 12, small_mesh = 2e5;
+  constexpr double most = 12, small_mesh = 2e5;
   if (options.effort != effort_accurate) return 0;
-  return int(std::clamp(least * std::sqrt(small_mesh / double(report.tets_in)), least, most));
+  return int(std::min(small_mesh / double(report.tets_in), most));
 }
 
 /// What a target size is spent on.

@@ -110,7 +110,8 @@ void find_interior(const MeshView &mesh, Span<const std::uint8_t> excluded, Job 
 }  // namespace
 
 void extract_boundary(const MeshView &mesh, Job &job, Boundary &boundary) {
-  Array<std::uint8_t> excluded(&job.memory);
+  Array<std::uint8_t> &excluded = boundary.excluded;
+  excluded.clear();
   for (;;) {
     Found found = sweep(mesh, excluded, job);
     const std::int64_t duplicate = exclude(found.duplicate, mesh.tets.size(), excluded);

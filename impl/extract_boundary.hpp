@@ -8,10 +8,12 @@
 namespace tetlod {
 
 struct Boundary {
-  explicit Boundary(Memory &memory) : triangles(&memory), tet_of(&memory), interior(&memory) {}
+  explicit Boundary(Memory &memory)
+      : triangles(&memory), tet_of(&memory), interior(&memory), excluded(&memory) {}
   Array<Triangle> triangles;     ///< original vertices, counter-clockwise seen from outside
   Array<std::int32_t> tet_of;    ///< of each triangle
   Array<std::int32_t> interior;  ///< vertices that tets use and the boundary does not, ascending
+  Array<std::uint8_t> excluded;  ///< of each tet, whether it is one of the flat or duplicate ones; empty: none is
   std::int64_t unused_points = 0;
   std::int64_t flat_tets = 0;       ///< tets without volume that were peeled off the boundary
   std::int64_t duplicate_tets = 0;  ///< tets with the four vertices of an earlier one, left out

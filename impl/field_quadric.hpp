@@ -11,8 +11,6 @@
 
 namespace tetlod {
 
-inline double dot4(const Vec4 &a, const Vec4 &b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]; }
-
 /// x^T a x + 2 b . x + c, of which the lower triangle of a is kept, row by row.
 struct FieldQuadric {
   std::array<double, 10> a{};

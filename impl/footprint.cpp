@@ -18,6 +18,8 @@ namespace {
 constexpr double bytes_a_triangle = 530, bytes_a_result_point = 360;
 // Of a run with a target: neighbours, frames or normal equations, and room to grow.
 constexpr double bytes_a_refined_tet = 250, bytes_a_refined_point = 70, bytes_a_probe = sizeof(Probe) + 8;
+// Of the original while its edges collapse.
+constexpr double bytes_a_solid_tet = 56, bytes_a_solid_point = 330, bytes_of_collapses = 9e5;
 // Of a field: original vertices are held by many tets, the centroids of cells by one.
 constexpr double bytes_a_located_point = 400, bytes_a_located_cell = 190, bytes_a_stencil = 48;
 
@@ -95,8 +97,11 @@ double expected_bytes(const Outlook &outlook, const Input &input) {
       outlook.probes > 0
           ? bytes_a_refined_tet * outlook.tets + bytes_a_refined_point * outlook.points + bytes_a_probe * outlook.probes
           : 0;
-  return std::max({bytes_a_triangle * outlook.boundary_triangles, bytes_a_result_point * outlook.points, refining,
-                   input.fields.empty() ? 0 : bytes_of_fields(outlook, input)});
+  const double collapsing = outlook.solid_tets > 0 ? bytes_a_solid_tet * outlook.solid_tets +
+                                                         bytes_a_solid_point * outlook.solid_points + bytes_of_collapses
+                                                   : 0;
+  return std::max({bytes_a_triangle * outlook.boundary_triangles, collapsing, bytes_a_result_point * outlook.points,
+                   refining, input.fields.empty() ? 0 : bytes_of_fields(outlook, input)});
 }
 
 double share_away(Span<const Vec3> points, Span<const Triangle> boundary, Span<const std::int32_t> samples,

@@ -10,9 +10,10 @@ namespace tetlod {
 
 /// What is to be expected of a run.
 struct Outlook {
-  double boundary_triangles = 0;  ///< of the original
-  double points = 0, tets = 0;    ///< of the result
-  double probes = 0;              ///< of a run with a target; 0: none
+  double boundary_triangles = 0;            ///< of the original
+  double points = 0, tets = 0;              ///< of the result
+  double probes = 0;                        ///< of a run with a target; 0: none
+  double solid_tets = 0, solid_points = 0;  ///< of the original, where its edges collapse; else 0
 };
 
 /// Bytes of the largest stage that is still to come, beside what is in use after sampling. By experience: the

@@ -5,6 +5,8 @@
 #include "budget.hpp"
 #include "carry_fields.hpp"
 #include "cull_samples.hpp"
+#include "decimate_solid_and_check.hpp"
+#include "describe_boundary.hpp"
 #include "find_crossing.hpp"
 #include "footprint.hpp"
 #include "geometry.hpp"
@@ -13,8 +15,7 @@
 #include "place_probes.hpp"
 #include "prepared.hpp"
 #include "refine.hpp"
-#include "sample_interior.hpp"
-#include "sample_residual.hpp"
+#include "select_samples.hpp"
 #include "stage_timer.hpp"
 #include "status.hpp"
 #include "surface_topology.hpp"
@@ -40,8 +41,10 @@ class Pipeline {
     prepare();
     extract();
     budget_.sigma = options_.sigma;
-    if (!as_published(options_)) budget_ = budget_of(ratio_of(options_), report_);
-    sample();
+    if (as_published(options_))
+      sample();
+    else
+      budget_ = budget_of(ratio_of(options_), report_);
   }
 
   /// After begin().
@@ -56,6 +59,10 @@ class Pipeline {
       of.points = of_boundary + samples;
       of.tets = tets_a_boundary_point * of_boundary + tets_a_sample * samples;
       return of;
+    }
+    if (collapses_edges(options_)) {
+      of.solid_tets = double(original_.view.tets.size());
+      of.solid_points = double(original_.view.points.size());
     }
     const double bound = options_.max_error * (report_.scalar_max - report_.scalar_min);
     of.tets = std::max(double(budget_.tets), tets_for_bound(original_.view, bound, job_));
@@ -89,16 +96,44 @@ class Pipeline {
   /// Where the bound does not hold because the boundary is too coarse, one with more triangles follows.
   void run_to_target(Worker &worker) {
     for (double ratio = ratio_of(options_);; ratio *= 2) {
-      simplify(worker);
-      meet_target(worker);
-      reconstruct_field();
+      if (!collapses_edges(options_) || !collapse_edges()) remesh_to_target(worker);
       if (refine() == 0) return;
       const double sigma = budget_.sigma;
       if (sigma >= 1) fail_bound();
       budget_ = budget_of(std::min(2 * ratio, 1.0), report_);
       budget_.sigma = less_decimated(sigma);
-      sample();
     }
+  }
+
+  void remesh_to_target(Worker &worker) {
+    sample();
+    simplify(worker);
+    meet_target(worker);
+    reconstruct_field();
+  }
+
+  /// False: that way leads to no sound mesh of the size.
+  bool collapse_edges() {
+    describe_boundary(prepared_.topology(job_), report_);
+    const StageTimer timer(Stage::decimate, job_, report_);
+    const double diagonal = original_.box.diagonal();
+    SolidOptions options;
+    options.tets = budget_.tets;
+    options.max_deviation = options_.max_deviation * diagonal;
+    options.kept = original_.flags;
+    CoarseSolid coarse(job_.memory);
+    if (!decimate_solid_and_check(original_.view, boundary_, prepared_.surface(job_), prepared_.topology(job_), options,
+                                  job_, coarse)) {
+      if (job_.log) job_.log(1, "no sound mesh of that size by collapsing edges: the boundary's is remeshed");
+      return false;
+    }
+    mesh_ = std::move(coarse.mesh);
+    origin_ = std::move(coarse.origin);
+    topology_ = std::move(coarse.topology);
+    report_.max_deviation = coarse.deviation / diagonal;
+    describe_simplified_boundary(topology_, report_);
+    report_.samples = report_.selected_samples = std::int64_t(mesh_.points.size()) - report_.boundary_points_out;
+    return true;
   }
 
   [[noreturn]] void fail_bound() const {
@@ -209,13 +244,8 @@ class Pipeline {
 
   void decimate(double sigma) {
     const StageTimer timer(Stage::decimate, job_, report_);
+    describe_boundary(prepared_.topology(job_), report_);
     const Surface &surface = prepared_.surface(job_);
-    const SurfaceTopology &topology = prepared_.topology(job_);
-    report_.boundary_points_in = topology.used_points;
-    report_.boundary_edges_in = topology.edges;
-    report_.components = topology.components;
-    report_.nonmanifold_edges = topology.nonmanifold_edges;
-    report_.nonmanifold_points = topology.nonmanifold_points;
     const double range = report_.scalar_max - report_.scalar_min, diagonal = box_of(surface.points).diagonal();
     const double weight = as_published(options_) || !(range > 0) ? 0 : field_weight_of(report_) * diagonal / range;
     const DecimateOptions options{sigma, options_.lambda, options_.clean_edges, options_.max_deviation * diagonal,
@@ -225,19 +255,16 @@ class Pipeline {
     report_.max_deviation = decimated.deviation / diagonal;
     topology_ = SurfaceTopology(job_.memory);
     find_topology(surface_.points, surface_.triangles, job_, topology_);
-    report_.boundary_points_out = topology_.used_points;
-    report_.boundary_edges_out = topology_.edges;
-    report_.boundary_triangles_out = std::int64_t(surface_.triangles.size());
+    describe_simplified_boundary(topology_, report_);
     report_.reused_triangles = decimated.reused ? report_.boundary_triangles_out : 0;
   }
 
   Array<std::uint8_t> flags_of_result() const {
     Array<std::uint8_t> flags(&job_.memory);
     if (original_.flags.empty()) return flags;
-    flags.assign(remeshed_.origin.size(), 0);
+    flags.assign(origin_.size(), 0);
     for (std::size_t i = 0; i < flags.size(); i++)
-      if (const std::int32_t v = original_vertex(remeshed_.origin[i]); v >= 0)
-        flags[i] = original_.flags[std::size_t(v)];
+      if (origin_[i] >= 0) flags[i] = original_.flags[std::size_t(origin_[i])];
     return flags;
   }
 
@@ -250,26 +277,7 @@ class Pipeline {
 
   void sample() {
     const StageTimer timer(Stage::sample, job_, report_);
-    if (!as_published(options_)) return sample_where_not_linear();
-    const double variation = options_.rho * (original_.scalar_max - original_.scalar_min);
-    Array<std::int32_t> vertices(boundary_.interior, &job_.memory);  // which sampling sorts
-    sample_interior(original_.view, {vertices.data(), vertices.size()}, variation, job_, selected_);
-    if (!original_.flags.empty()) add_flagged(original_.flags, boundary_.interior, selected_);
-    report_.selected_samples = std::int64_t(selected_.size());
-  }
-
-  void sample_where_not_linear() {
-    Array<std::uint8_t> is_interior(original_.view.points.size(), 0, &job_.memory);
-    for (std::int32_t v : boundary_.interior) is_interior[std::size_t(v)] = 1;
-    Array<std::int32_t> vertices(boundary_.interior, &job_.memory);
-    Array<std::uint8_t> on_boundary(is_interior.size(), 0, &job_.memory);
-    for (const Triangle &t : boundary_.triangles)
-      for (std::int32_t v : t) on_boundary[std::size_t(v)] = 1;
-    for (std::size_t v = 0; v < on_boundary.size(); v++)
-      if (on_boundary[v]) vertices.push_back(std::int32_t(v));
-    selected_.clear();
-    sample_residual(original_.view, vertices, is_interior, budget_.samples, job_, selected_);
-    if (!original_.flags.empty()) add_flagged(original_.flags, boundary_.interior, selected_);
+    select_samples(original_, boundary_, options_, budget_.samples, job_, selected_);
     report_.selected_samples = std::int64_t(selected_.size());
   }
 
@@ -314,6 +322,8 @@ class Pipeline {
     const Span<const Vec3> steiner{remeshed_.points.data() + first_steiner, remeshed_.points.size() - first_steiner};
     interpolate(original_.view, boundary_.triangles, steiner, options_.tet_leaf, job_, values);
     mesh_.scalars.insert(mesh_.scalars.end(), values.begin(), values.end());
+    origin_.clear();
+    for (std::int32_t origin : remeshed_.origin) origin_.push_back(original_vertex(origin));
     mesh_.points = std::move(remeshed_.points);
     mesh_.tets = std::move(remeshed_.tets);
     mesh_.boundary = std::move(surface_.triangles);
@@ -353,6 +363,7 @@ class Pipeline {
   Array<std::int32_t> selected_{&job_.memory};  // by sampling
   Array<std::int32_t> samples_{&job_.memory};   // after culling
   RemeshResult remeshed_{job_.memory};
+  Array<std::int32_t> origin_{&job_.memory};  // of each point of mesh_, the original vertex that it is, or -1
 };
 
 }  // namespace

@@ -7,6 +7,8 @@ namespace tetlod {
 
 using Vec4 = std::array<double, 4>;
 
+inline double dot4(const Vec4 &a, const Vec4 &b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]; }
+
 /// A symmetric positive definite system by Cholesky, of its lower triangle, row by row; not regular where a pivot is
 /// not above `least_pivot`.
 class Solver4 {

@@ -1,0 +1,294 @@
+#include "decimate_solid.hpp"
+
+#include <limits>
+#include <optional>
+
+#include "deviation.hpp"
+#include "solid_mesh.hpp"
+#include "solid_rules.hpp"
+#include "sweep.hpp"
+
+namespace tetlod {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+/// Part of the vertices whose cheapest edges a round looks at. A smaller one comes nearer to the cheapest edge of all
+/// first, and loses no less.
+constexpr double part_of_round = 0.5;
+/// Tets that a collapse takes away, about.
+constexpr double tets_a_collapse = 5.5;
+/// Where nothing is lost, short edges first: what the square of a length counts as.
+constexpr double shape_share = 1e-6;
+/// Of the volume, that the boundary may lose.
+constexpr double volume_to_lose = 0.01;
+/// A best place further off than this part of the edge is none.
+constexpr double longest_step = 0.5;
+constexpr std::size_t largest_batch = 256;
+
+struct SolidCollapse {
+  using allocator_type = std::pmr::polymorphic_allocator<std::byte>;
+  explicit SolidCollapse(allocator_type memory) : star(*static_cast<Memory *>(memory.resource())) {}
+  SolidEdge old;
+  Vec4 place{};
+  std::int32_t found_at = -1;  ///< the end whose cheapest edge it is
+  bool of_boundary = false;
+  Star star;  ///< of the boundary
+};
+
+class SolidDecimator {
+ public:
+  SolidDecimator(const MeshView &original, const Boundary &boundary, const Surface &surface,
+                 const SolidOptions &options, Job &job)
+      : original_(original),
+        range_(range_of(original.scalars)),
+        scale_(range_.second > range_.first ? box_of(original.points).diagonal() / (range_.second - range_.first) : 1),
+        job_(job),
+        mesh_(original, boundary, scale_, job),
+        cheapest_(original.points.size(), CheapestEdge(), &job.memory),
+        moved_(original.points.size(), -1, &job.memory),
+        left_(&job.memory),
+        changed_(&job.memory) {
+    for (std::size_t v = 0; v < options.kept.size(); v++)
+      if (options.kept[v]) mesh_.ranks[v] = mesh_.on_boundary(std::int32_t(v)) ? Rank::kept_boundary : Rank::kept_inner;
+    for (std::size_t v = 0; v < options.touching.size(); v++)
+      if (options.touching[v]) mesh_.ranks[v] = Rank::touching;
+    for (std::size_t v = 0; v < original.points.size(); v++)
+      if (mesh_.has_vertex(std::int32_t(v))) left_.push_back(std::int32_t(v));
+    const auto boundary_points = double(surface.points.size());
+    volume_of_collapse_ = volume_to_lose * mesh_.volume() / boundary_points;
+    if (options.max_deviation > 0) deviation_.emplace(surface, options.max_deviation, job);
+  }
+
+  void run(std::int64_t target) {
+    const double surplus = double(mesh_.count - target);
+    find_cheapest_edges(left_);
+    Array<std::int32_t> items(&job_.memory);
+    for (double limit; mesh_.count > target && (limit = limit_of_round(target)) < infinity; round_++) {
+      job_.poll(1 - double(mesh_.count - target) / surplus);
+      items.clear();
+      for (std::int32_t v : left_)
+        if (cheapest(v).cost <= limit) items.push_back(v);
+      collapse_some(spread(items), limit, target);
+      drop_gone(left_);
+      drop_gone(changed_);
+      round_of_costs_ = round_ + 1;
+      find_cheapest_edges(changed_);
+    }
+  }
+
+  void write(TetMesh &out, Array<std::int32_t> &origin) const {
+    Array<std::int32_t> number(original_.points.size(), -1, &job_.memory);
+    for (std::int32_t v : left_) {
+      if (!mesh_.has_vertex(v)) continue;
+      const bool moved = mesh_.point(v) != original_.points[std::size_t(v)];
+      number[std::size_t(v)] = std::int32_t(out.points.size());
+      out.points.push_back(mesh_.point(v));
+      const double scalar = std::clamp(mesh_.vertex(v).place[3] / scale_, range_.first, range_.second);
+      out.scalars.push_back(moved ? scalar : original_.scalars[std::size_t(v)]);
+      origin.push_back(moved ? -1 : v);
+    }
+    const auto append = [&](const auto &simplices, auto &to) {
+      for (auto simplex : simplices) {
+        if (simplex[0] < 0) continue;
+        for (std::int32_t &v : simplex) v = number[std::size_t(v)];
+        to.push_back(simplex);
+      }
+    };
+    append(mesh_.tets, out.tets);
+    append(mesh_.triangles, out.boundary);
+  }
+
+ private:
+  /// No admissible edge of the vertex costs less, as far as was known in that round.
+  struct CheapestEdge {
+    double cost = infinity, t = 0;
+    std::int32_t other = -1;
+    int round = -1;
+  };
+
+  /// Of a vertex without such an edge that is looked at again after the round.
+  static constexpr int waiting = -2;
+
+  static std::pair<double, double> range_of(Span<const double> values) {
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    return {*low, *high};
+  }
+
+  CheapestEdge &cheapest(std::int32_t v) { return cheapest_[std::size_t(v)]; }
+  const CheapestEdge &cheapest(std::int32_t v) const { return cheapest_[std::size_t(v)]; }
+
+  // ---- Costs
+
+  bool keeps_place(std::int32_t stays, std::int32_t gone) const { return mesh_.rank(stays) != mesh_.rank(gone); }
+  bool may_go(std::int32_t v) const { return mesh_.rank(v) == Rank::inner || mesh_.rank(v) == Rank::boundary; }
+
+  BestOfEdge cost(std::int32_t stays, std::int32_t gone) const {
+    if (mesh_.rank(stays) < mesh_.rank(gone)) std::swap(stays, gone);
+    if (!may_go(gone) || mesh_.rank(stays) == Rank::touching) return {0, infinity};
+    const SolidVertex &a = mesh_.vertex(stays), &b = mesh_.vertex(gone);
+    const Vec4 d = minus(b.place, a.place);
+    BestOfEdge best = best_of_edge(a.quadric, b.quadric, d, keeps_place(stays, gone));
+    best.cost += shape_share * (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) * (a.quadric.a[9] + b.quadric.a[9]);
+    return best;
+  }
+
+  void find_cheapest_edge(std::int32_t v, double more_than) {
+    CheapestEdge found;
+    found.round = round_of_costs_;
+    for (std::int32_t u : mesh_.neighbours.of(v)) {
+      const BestOfEdge best = cost(v, u);
+      if (best.cost > more_than && best.cost < found.cost) found = {best.cost, best.t, u, round_of_costs_};
+    }
+    cheapest(v) = found;
+  }
+
+  void find_cheapest_edges(Span<const std::int32_t> vertices) {
+    job_.parallel.for_blocks(vertices.size(), 64, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; i++) find_cheapest_edge(vertices[i], -infinity);
+      job_.poll(0);
+    });
+  }
+
+  /// Its other end may have moved or gone since.
+  bool is_known(const CheapestEdge &edge) const {
+    return edge.other >= 0 && mesh_.has_vertex(edge.other) && moved_[std::size_t(edge.other)] < edge.round;
+  }
+
+  // ---- Rounds
+
+  /// What an edge of the round may cost. Towards the end rounds get smaller, so that the last collapses are the
+  /// cheapest.
+  double limit_of_round(std::int64_t target) const {
+    Array<double> costs(&job_.memory);
+    for (std::int32_t v : left_)
+      if (cheapest(v).cost < infinity) costs.push_back(cheapest(v).cost);
+    if (costs.empty()) return infinity;
+    const double needed = 1 + double(mesh_.count - target) / tets_a_collapse;
+    const double wanted = std::min(part_of_round * double(left_.size()), needed);
+    const auto last = costs.begin() + std::ptrdiff_t(std::min(std::size_t(wanted), costs.size() - 1));
+    std::nth_element(costs.begin(), last, costs.end());
+    return *last;
+  }
+
+  /// Far ones follow one another, so that those of a batch are apart, and each batch is near the one before.
+  Array<std::int32_t> spread(Span<const std::int32_t> items) const {
+    const std::size_t stride = (items.size() + largest_batch - 1) / largest_batch;
+    Array<std::int32_t> ordered(&job_.memory);
+    ordered.reserve(items.size());
+    for (std::size_t first = 0; first < stride; first++)
+      for (std::size_t i = first; i < items.size(); i += stride) ordered.push_back(items[i]);
+    return ordered;
+  }
+
+  void collapse_some(Span<const std::int32_t> items, double limit, std::int64_t target) {
+    changed_.clear();
+    sweep<SolidCollapse>(
+        items, batches_of(items.size(), largest_batch, job_.memory), job_, mesh_,
+        [&](std::int32_t v, SolidCollapse &collapse) { return find(v, limit, collapse); },
+        [&](const SolidCollapse &collapse) {
+          if (mesh_.count > target) make(collapse);
+        });
+  }
+
+  void drop_gone(Array<std::int32_t> &vertices) const {
+    const auto is_gone = [&](std::int32_t v) { return !mesh_.has_vertex(v); };
+    vertices.erase(std::remove_if(vertices.begin(), vertices.end(), is_gone), vertices.end());
+  }
+
+  // ---- A collapse
+
+  /// The cheapest admissible one of an edge of v within the limit. A vertex moves once a round.
+  bool find(std::int32_t v, double limit, SolidCollapse &collapse) {
+    if (!mesh_.has_vertex(v) || moved_[std::size_t(v)] == round_) return false;
+    if (!is_known(cheapest(v))) find_cheapest_edge(v, -infinity);
+    for (; cheapest(v).cost <= limit; find_cheapest_edge(v, cheapest(v).cost))
+      if (is_admissible(v, cheapest(v), collapse)) return true;
+    return false;
+  }
+
+  bool is_admissible(std::int32_t v, const CheapestEdge &cheapest, SolidCollapse &collapse) {
+    std::int32_t stays = v, gone = cheapest.other;
+    if (mesh_.rank(stays) < mesh_.rank(gone)) std::swap(stays, gone);
+    SolidEdge &edge = collapse.old;
+    collapse.found_at = v;
+    if (!look_around(mesh_, stays, gone, edge)) return false;
+    collapse.of_boundary = mesh_.on_boundary(gone);
+    return find_place(cheapest.t, collapse) && !breaks_topology(mesh_, edge);
+  }
+
+  /// The best place near the edge, or, where that is none, the best along it.
+  bool find_place(double t, SolidCollapse &collapse) {
+    const SolidEdge &edge = collapse.old;
+    const SolidVertex &stays = mesh_.vertex(edge.stays), &gone = mesh_.vertex(edge.gone);
+    const Vec4 d = minus(gone.place, stays.place), best = along(stays.place, t, d);
+    StepConstraint constraint;
+    if (collapse.of_boundary) constraint = keeping_volume(mesh_, edge, {best[0], best[1], best[2]});
+    if (!keeps_place(edge.stays, edge.gone)) {
+      LocalQuadric sum = stays.quadric.moved(minus(best, stays.place));
+      sum.add(gone.quadric.moved(minus(best, gone.place)));
+      Vec4 step;
+      if (step_to_least(sum, constraint, step) && is_short(step, d) && suits(along(best, 1, step), collapse))
+        return true;
+    }
+    return std::abs(constraint.offset) / 6 <= volume_of_collapse_ && suits(best, collapse);
+  }
+
+  static bool is_short(const Vec4 &step, const Vec4 &edge) {
+    const Vec3 by(step[0], step[1], step[2]), whole(edge[0], edge[1], edge[2]);
+    return length2(by) <= longest_step * longest_step * length2(whole);
+  }
+
+  bool suits(const Vec4 &place, SolidCollapse &collapse) {
+    const Vec3 point(place[0], place[1], place[2]);
+    collapse.place = place;
+    if (flattens(mesh_, collapse.old, point)) return false;
+    if (!collapse.of_boundary) return true;
+    Star &star = collapse.star;
+    return look_around_on_boundary(mesh_, collapse.old, point, star) && !turns_too_far(star) && !folds(star) &&
+           !makes_sliver(star);
+  }
+
+  void make(const SolidCollapse &collapse) {
+    const std::int32_t v = collapse.old.stays;
+    if (deviation_ && collapse.of_boundary) {
+      if (deviation_->is_passed(collapse.star)) {
+        find_cheapest_edge(collapse.found_at, cheapest(collapse.found_at).cost);
+        return;
+      }
+      deviation_->move_on(collapse.star);
+    }
+    mesh_.collapse(collapse.old, collapse.place);
+    moved_[std::size_t(v)] = round_;
+    changed_.push_back(v);
+    // What was not admissible around it may be so now.
+    for (std::int32_t u : mesh_.neighbours.of(v))
+      if (cheapest(u).cost == infinity && cheapest(u).round != waiting) {
+        cheapest(u).round = waiting;
+        changed_.push_back(u);
+      }
+  }
+
+  const MeshView &original_;
+  std::pair<double, double> range_;
+  double scale_;  // length that a unit of the scalar counts as: the range is as long as the diagonal
+  Job &job_;
+  SolidMesh mesh_;
+  std::optional<DeviationLimit> deviation_;
+  double volume_of_collapse_ = 0;
+  int round_ = 0, round_of_costs_ = 0;
+  Array<CheapestEdge> cheapest_;
+  Array<int> moved_;  // the round in which each vertex moved last
+  Array<std::int32_t> left_, changed_;
+};
+
+}  // namespace
+
+void decimate_solid(const MeshView &original, const Boundary &boundary, const Surface &surface,
+                    const SolidOptions &options, Job &job, TetMesh &mesh, Array<std::int32_t> &origin) {
+  SolidDecimator decimator(original, boundary, surface, options, job);
+  decimator.run(options.tets);
+  decimator.write(mesh, origin);
+}
+
+}  // namespace tetlod

@@ -1,0 +1,23 @@
+// A coarse mesh by collapsing edges, where the outcome stands every test; else the caller has to remesh.
+#pragma once
+#include "decimate_solid.hpp"
+#include "surface_topology.hpp"
+
+namespace tetlod {
+
+struct CoarseSolid {
+  explicit CoarseSolid(Memory &memory) : mesh(memory), origin(&memory), surface(memory), topology(memory) {}
+  TetMesh mesh;
+  Array<std::int32_t> origin;  ///< the original vertex that each point still is, or -1
+  Surface surface;             ///< the boundary with points of its own
+  SurfaceTopology topology;    ///< of that
+  double deviation = 0;        ///< between the boundaries, at the vertices of both
+};
+
+/// decimate_solid. `surface` is the original's boundary, `topology` that of it; options.touching is found from them.
+/// False where the size is missed by more than 1 %, a tet is not positive, tets overlap, or the boundary crosses
+/// itself.
+bool decimate_solid_and_check(const MeshView &original, const Boundary &boundary, const Surface &surface,
+                              const SurfaceTopology &topology, SolidOptions options, Job &job, CoarseSolid &coarse);
+
+}  // namespace tetlod

@@ -1,0 +1,256 @@
+#include "solid_rules.hpp"
+
+#include "adaptive_mesh.hpp"
+
+namespace tetlod {
+
+namespace {
+
+bool has(const Tet &t, std::int32_t v) { return (t[0] == v) | (t[1] == v) | (t[2] == v) | (t[3] == v); }
+bool has(const Triangle &t, std::int32_t v) { return (t[0] == v) | (t[1] == v) | (t[2] == v); }
+
+/// Says of most vertices that they are not among some.
+class Seen {
+ public:
+  void add(std::int32_t v) { bits_ |= bit(v); }
+  bool may_have(std::int32_t v) const { return (bits_ & bit(v)) != 0; }
+
+ private:
+  static std::uint64_t bit(std::int32_t v) { return std::uint64_t(1) << ((std::uint32_t(v) * 2654435761u) >> 26); }
+  std::uint64_t bits_ = 0;
+};
+
+/// The link of an edge: vertices, and which of them are neighbours in it.
+class Ring {
+ public:
+  static constexpr std::size_t most = 32;
+
+  /// False when there are too many.
+  bool add_edge(std::int32_t p, std::int32_t q) {
+    const int i = number_or_new(p), j = number_or_new(q);
+    if (i < 0 || j < 0) return false;
+    neighbours_[i] |= 1u << j;
+    neighbours_[j] |= 1u << i;
+    return true;
+  }
+  /// -1: v is not in the ring.
+  int number(std::int32_t v) const {
+    if (!seen_.may_have(v)) return -1;
+    const auto at = std::find(vertices_.begin(), vertices_.end(), v);
+    return at == vertices_.end() ? -1 : int(at - vertices_.begin());
+  }
+  bool has_edge(int i, int j) const { return (neighbours_[i] >> j) & 1u; }
+
+ private:
+  int number_or_new(std::int32_t v) {
+    const int i = number(v);
+    if (i >= 0) return i;
+    seen_.add(v);
+    return vertices_.push(v) ? int(vertices_.size()) - 1 : -1;
+  }
+
+  Few<std::int32_t, most> vertices_;
+  Seen seen_;
+  std::uint32_t neighbours_[most] = {};
+};
+
+bool find_ring(const SolidMesh &mesh, const SolidEdge &edge, Ring &ring) {
+  for (std::int32_t t : edge.edge_tets) {
+    std::int32_t p = -1, q = -1;
+    for (std::int32_t v : mesh.tets[std::size_t(t)])
+      if (v != edge.stays && v != edge.gone) (p < 0 ? p : q) = v;
+    if (!ring.add_edge(p, q)) return false;
+  }
+  return true;
+}
+
+bool share_more_than(const SolidMesh &mesh, const Ring &ring, const SolidEdge &edge) {
+  const Span<const std::int32_t> of_stays = mesh.neighbours.of(edge.stays), of_gone = mesh.neighbours.of(edge.gone);
+  Seen seen;
+  for (std::int32_t v : of_stays) seen.add(v);
+  return std::any_of(of_gone.begin(), of_gone.end(), [&](std::int32_t v) {
+    return seen.may_have(v) && ring.number(v) < 0 && std::find(of_stays.begin(), of_stays.end(), v) != of_stays.end();
+  });
+}
+
+/// Edges between vertices of the ring that the tets of one end have in their link, and the ring has not.
+struct Chords {
+  bool any = false;
+  std::uint32_t of[Ring::most] = {};
+
+  template <class Tets>
+  Chords(const SolidMesh &mesh, const Ring &ring, const Tets &tets) {
+    for (std::int32_t t : tets) {
+      int in_ring[4], size = 0;
+      for (std::int32_t v : mesh.tets[std::size_t(t)])
+        if (const int i = ring.number(v); i >= 0) in_ring[size++] = i;
+      for (int a = 0; a < size; a++)
+        for (int b = 0; b < a; b++)
+          if (!ring.has_edge(in_ring[a], in_ring[b])) add(in_ring[a], in_ring[b]);
+    }
+  }
+  void add(int i, int j) {
+    any = true;
+    of[i] |= 1u << j;
+    of[j] |= 1u << i;
+  }
+};
+
+bool share_chord(const SolidMesh &mesh, const Ring &ring, const SolidEdge &edge) {
+  const Chords of_stays(mesh, ring, edge.stays_tets);
+  if (!of_stays.any) return false;
+  const Chords of_gone(mesh, ring, edge.gone_tets);
+  for (std::size_t i = 0; i < Ring::most; i++)
+    if (of_stays.of[i] & of_gone.of[i]) return true;
+  return false;
+}
+
+struct Corners {
+  Vec3 p[4];
+  double volume6() const { return det(p[0], p[1], p[2], p[3]); }
+  /// Square of the volume over the cube of the longest edge.
+  double shape2() const {
+    const double longest = std::max({length2(p[1] - p[0]), length2(p[2] - p[0]), length2(p[3] - p[0]),
+                                     length2(p[2] - p[1]), length2(p[3] - p[1]), length2(p[3] - p[2])});
+    const double volume = volume6();
+    return volume * volume / (longest * longest * longest);
+  }
+  /// Cheaper: no edge is longer than twice the longest one at a corner.
+  bool is_surely_sound() const {
+    const double volume = volume6(),
+                 most = 4 * std::max({length2(p[1] - p[0]), length2(p[2] - p[0]), length2(p[3] - p[0])});
+    return volume > 0 && volume * volume > least_shape * least_shape * most * most * most;
+  }
+};
+
+template <class Tets>
+bool flattens_some(const SolidMesh &mesh, const Tets &tets, std::int32_t v, const Vec3 &place) {
+  for (std::int32_t t : tets) {
+    const Tet &tet = mesh.tets[std::size_t(t)];
+    Corners before, after;
+    for (std::size_t k = 0; k < 4; k++) {
+      before.p[k] = mesh.point(tet[k]);
+      after.p[k] = tet[k] == v ? place : before.p[k];
+    }
+    if (after.is_surely_sound()) continue;
+    if (!(after.volume6() > 0)) return true;
+    const double shape2 = after.shape2();
+    if (shape2 < least_shape * least_shape && shape2 < before.shape2()) return true;
+  }
+  return false;
+}
+
+/// The triangle with the half-edge from -> to; -1 if there is none.
+std::int32_t triangle_at(const SolidMesh &mesh, std::int32_t from, std::int32_t to) {
+  for (std::int32_t t : mesh.triangles_of.of(from)) {
+    if (!mesh.has_triangle(t)) continue;
+    const Triangle &f = mesh.triangles[std::size_t(t)];
+    for (std::size_t k = 0; k < 3; k++)
+      if (f[k] == from && f[(k + 1) % 3] == to) return t;
+  }
+  return -1;
+}
+
+/// The side of a triangle that is opposite an end of the edge.
+struct Side {
+  std::int32_t from, to, triangle;
+};
+using Sides = Few<Side, longest_ring>;
+
+/// Of the triangles that an end has alone; those at the edge go to `at_edge`. False when there are too many.
+bool find_sides(const SolidMesh &mesh, std::int32_t end, std::int32_t other, Sides &sides,
+                Array<std::int32_t> &at_edge) {
+  for (std::int32_t t : mesh.triangles_of.of(end)) {
+    if (!mesh.has_triangle(t)) continue;
+    const Triangle &f = mesh.triangles[std::size_t(t)];
+    if (has(f, other)) {
+      if (std::find(at_edge.begin(), at_edge.end(), t) == at_edge.end()) at_edge.push_back(t);
+      continue;
+    }
+    const auto k = std::size_t(std::find(f.begin(), f.end(), end) - f.begin());
+    if (!sides.push({f[(k + 1) % 3], f[(k + 2) % 3], t})) return false;
+  }
+  return true;
+}
+
+bool add_spoke(const SolidMesh &mesh, const Side &side, Star &star) {
+  const std::int32_t beyond = triangle_at(mesh, side.to, side.from);
+  if (beyond < 0) return false;
+  const Triangle &f = mesh.triangles[std::size_t(side.triangle)];
+  star.ring_id.push_back(side.from);
+  star.ring.push_back(mesh.point(side.from));
+  star.old_normal.push_back(mesh.normal(side.triangle));
+  star.outer_normal.push_back(mesh.normal(beyond));
+  star.old_faces.push_back(side.triangle);
+  star.old_quality = std::min(star.old_quality, triangle_quality(mesh.point(f[0]), mesh.point(f[1]), mesh.point(f[2])));
+  return true;
+}
+
+}  // namespace
+
+bool look_around(const SolidMesh &mesh, std::int32_t stays, std::int32_t gone, SolidEdge &edge) {
+  edge.stays = stays;
+  edge.gone = gone;
+  edge.stays_tets.clear();
+  edge.gone_tets.clear();
+  edge.edge_tets.clear();
+  for (std::int32_t t : mesh.tets_of.of(stays)) {
+    if (!mesh.has_tet(t)) continue;
+    const bool at_edge = has(mesh.tets[std::size_t(t)], gone);
+    if (!(at_edge ? edge.edge_tets.push(t) : edge.stays_tets.push(t))) return false;
+  }
+  for (std::int32_t t : mesh.tets_of.of(gone))
+    if (mesh.has_tet(t) && !has(mesh.tets[std::size_t(t)], stays) && !edge.gone_tets.push(t)) return false;
+  return !edge.edge_tets.empty() && !(edge.stays_tets.empty() && edge.gone_tets.empty());
+}
+
+bool breaks_topology(const SolidMesh &mesh, const SolidEdge &edge) {
+  Ring ring;
+  return !find_ring(mesh, edge, ring) || share_more_than(mesh, ring, edge) || share_chord(mesh, ring, edge);
+}
+
+bool flattens(const SolidMesh &mesh, const SolidEdge &edge, const Vec3 &place) {
+  return (place != mesh.point(edge.stays) && flattens_some(mesh, edge.stays_tets, edge.stays, place)) ||
+         flattens_some(mesh, edge.gone_tets, edge.gone, place);
+}
+
+bool look_around_on_boundary(const SolidMesh &mesh, const SolidEdge &edge, const Vec3 &place, Star &star) {
+  star.clear();
+  star.centre = place;
+  star.centre_id = edge.stays;
+  Sides sides;
+  if (!find_sides(mesh, edge.stays, edge.gone, sides, star.old_faces) ||
+      !find_sides(mesh, edge.gone, edge.stays, sides, star.old_faces))
+    return false;
+  if (star.old_faces.size() != 2 || sides.size() < 3) return false;
+  // In order around the edge, every vertex once.
+  std::int32_t at = sides[0].from;
+  for (std::size_t i = 0; i < sides.size(); i++) {
+    const auto next = std::find_if(sides.begin(), sides.end(), [&](const Side &s) { return s.from == at; });
+    const bool again = std::find(star.ring_id.begin(), star.ring_id.end(), at) != star.ring_id.end();
+    if (next == sides.end() || again || !add_spoke(mesh, *next, star)) return false;
+    at = next->to;
+  }
+  star.find_spokes();
+  return at == sides[0].from;
+}
+
+StepConstraint keeping_volume(const SolidMesh &mesh, const SolidEdge &edge, const Vec3 &from) {
+  constexpr double crumpled = 0.01;  // of the area
+  StepConstraint constraint;
+  double area = 0;
+  for (std::int32_t end : {edge.stays, edge.gone})
+    for (std::int32_t t : mesh.triangles_of.of(end)) {
+      if (!mesh.has_triangle(t)) continue;
+      const Triangle &f = mesh.triangles[std::size_t(t)];
+      if (end == edge.gone && has(f, edge.stays)) continue;  // it was among the other's
+      const Vec3 normal = mesh.normal(t);
+      constraint.normal += normal;
+      constraint.offset -= glm::dot(normal, from - mesh.point(f[0]));
+      area += glm::length(normal);
+    }
+  if (!(glm::length(constraint.normal) > crumpled * area)) constraint.normal = Vec3(0);
+  return constraint;
+}
+
+}  // namespace tetlod

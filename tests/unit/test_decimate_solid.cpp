@@ -1,0 +1,247 @@
+// Collapsing edges of a solid: what comes out is positive, closed and of the same topology; admissible is what the link
+// condition allows.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "brute_force.hpp"
+#include "decimate_solid_and_check.hpp"
+#include "deviation.hpp"
+#include "geometry.hpp"
+#include "meshes.hpp"
+#include "solid_rules.hpp"
+
+namespace tetlod {
+namespace {
+
+using namespace test;
+
+double waves(const Vec3 &p) { return std::sin(6 * p.x) * std::cos(5 * p.y) + p.z * p.z; }
+
+class DecimateSolid : public testing::Test {
+ protected:
+  Host host;
+  Mesh original;
+  Boundary boundary{host.memory};
+  Surface surface{host.memory};
+  SurfaceTopology topology{host.memory};
+  SolidOptions options;
+
+  void start_with(const Mesh &mesh) {
+    original = mesh;
+    boundary = Boundary(host.memory);
+    surface = Surface(host.memory);
+    topology = SurfaceTopology(host.memory);
+    extract_boundary(original.view(), host.job, boundary);
+    make_surface(original.view(), boundary.triangles, host.job, surface);
+    find_topology(surface.points, surface.triangles, host.job, topology);
+  }
+
+  bool decimate(double ratio, Host &on, CoarseSolid &coarse) {
+    options.tets = std::int64_t(ratio * double(original.tets.size()));
+    return decimate_solid_and_check(original.view(), boundary, surface, topology, options, on.job, coarse);
+  }
+
+  void expect_sound(const CoarseSolid &coarse) const {
+    Mesh mesh;
+    mesh.points.assign(coarse.mesh.points.begin(), coarse.mesh.points.end());
+    mesh.tets.assign(coarse.mesh.tets.begin(), coarse.mesh.tets.end());
+    for (const Tet &t : mesh.tets) {
+      const auto p = [&](int k) { return mesh.points[std::size_t(t[std::size_t(k)])]; };
+      EXPECT_GT(det(p(0), p(1), p(2), p(3)), 0);
+    }
+    EXPECT_EQ(oriented_triangles(coarse.mesh.boundary), brute_boundary(mesh));
+    const SurfaceFacts was = facts_of(boundary.triangles), is = facts_of(coarse.mesh.boundary);
+    EXPECT_TRUE(is.closed);
+    EXPECT_EQ(is.components, was.components);
+    EXPECT_EQ(is.euler, was.euler);
+    EXPECT_EQ(is.nonmanifold_edges, was.nonmanifold_edges);
+    EXPECT_TRUE(crossings(coarse.surface, const_cast<Host &>(host).memory).empty());
+    EXPECT_NEAR(volume_of(mesh) / volume_of(original), 1, 0.01);
+  }
+};
+
+TEST_F(DecimateSolid, IsSoundAndMeetsItsSize) {
+  const auto tunnel = [](const Cell &c) { return !(c[0] > 1 && c[0] < 6 && c[1] > 1 && c[1] < 6); };
+  const auto cavity = [](const Cell &c) {
+    return !(c[0] > 1 && c[0] < 5 && c[1] > 1 && c[1] < 5 && c[2] > 1 && c[2] < 5);
+  };
+  Mesh several = kuhn_cube(6), other = kuhn_cube(5);
+  for (Vec3 &p : other.points) p += Vec3(1.2, 0.3, 0);
+  append(several, other);
+  for (Mesh mesh : {kuhn_cube(10), kuhn_solid({8, 8, 8}, tunnel), kuhn_solid({7, 7, 7}, cavity), several}) {
+    set_scalars(mesh, waves);
+    shuffle(mesh, 1);
+    start_with(mesh);
+    for (double ratio : {0.5, 0.2, 0.1}) {
+      CoarseSolid coarse(host.memory);
+      ASSERT_TRUE(decimate(ratio, host, coarse)) << ratio;
+      EXPECT_LE(std::int64_t(coarse.mesh.tets.size()), options.tets);
+      EXPECT_GE(std::int64_t(coarse.mesh.tets.size()), options.tets - 12);
+      expect_sound(coarse);
+    }
+  }
+}
+
+TEST_F(DecimateSolid, SolidsThatTouchKeepWhatTouches) {
+  for (unsigned seed = 0; seed < 8; seed++) {
+    Mesh mesh = random_solid(6, 0.4 + 0.05 * seed, seed);
+    set_scalars(mesh, waves);
+    start_with(mesh);
+    CoarseSolid coarse(host.memory);
+    if (!decimate(0.7, host, coarse)) continue;
+    expect_sound(coarse);
+    for (std::size_t p = 0; p < surface.points.size(); p++) {
+      if (!topology.touching[p]) continue;
+      EXPECT_EQ(std::count(coarse.mesh.points.begin(), coarse.mesh.points.end(), surface.points[p]), 1);
+    }
+  }
+}
+
+TEST_F(DecimateSolid, SameBytesForAnyNumberOfThreads) {
+  Mesh mesh = kuhn_cube(12);
+  set_scalars(mesh, waves);
+  start_with(mesh);
+  CoarseSolid one(host.memory);
+  ASSERT_TRUE(decimate(0.1, host, one));
+  for (int threads : {2, 3}) {
+    Host several(threads);
+    CoarseSolid other(several.memory);
+    ASSERT_TRUE(decimate(0.1, several, other));
+    EXPECT_EQ(one.mesh.tets, other.mesh.tets);
+    EXPECT_EQ(one.mesh.points, other.mesh.points);
+    EXPECT_EQ(one.mesh.scalars, other.mesh.scalars);
+  }
+}
+
+TEST_F(DecimateSolid, KeptVerticesStayInsideAndOnTheBoundary) {
+  Mesh mesh = kuhn_cube(8);
+  set_scalars(mesh, waves);
+  start_with(mesh);
+  std::vector<std::uint8_t> kept(mesh.points.size(), 0);
+  for (std::size_t v = 0; v < kept.size(); v++) kept[v] = mesh.points[v].x == 0 || v % 17 == 0;
+  options.kept = {kept.data(), kept.size()};
+  CoarseSolid coarse(host.memory);
+  ASSERT_TRUE(decimate(0.4, host, coarse));
+  expect_sound(coarse);
+  std::vector<std::int32_t> place(kept.size(), -1);
+  for (std::size_t i = 0; i < coarse.origin.size(); i++)
+    if (coarse.origin[i] >= 0) place[std::size_t(coarse.origin[i])] = std::int32_t(i);
+  for (std::size_t v = 0; v < kept.size(); v++) {
+    if (!kept[v]) continue;
+    ASSERT_GE(place[v], 0) << v;
+    EXPECT_EQ(coarse.mesh.points[std::size_t(place[v])], mesh.points[v]);
+    EXPECT_EQ(coarse.mesh.scalars[std::size_t(place[v])], mesh.scalars[v]);
+  }
+  // The wall x = 0, whose vertices are all kept, has its triangles still.
+  const std::multiset<Triangle> now = oriented_triangles(coarse.mesh.boundary);
+  for (Triangle t : boundary.triangles) {
+    if (!std::all_of(t.begin(), t.end(), [&](std::int32_t v) { return mesh.points[std::size_t(v)].x == 0; })) continue;
+    for (std::int32_t &v : t) v = place[std::size_t(v)];
+    EXPECT_EQ(now.count(lowest_first(t)), 1u);
+  }
+}
+
+TEST_F(DecimateSolid, GoesNoFurtherThanMaxDeviation) {
+  Mesh mesh = kuhn_cube(10);
+  transform(mesh,
+            [](const Vec3 &p) { return p + 0.1 * Vec3(std::sin(7 * p.y), std::sin(5 * p.z), std::sin(6 * p.x)); });
+  set_scalars(mesh, waves);
+  start_with(mesh);
+  CoarseSolid free(host.memory), held(host.memory);
+  ASSERT_TRUE(decimate(0.2, host, free));
+  options.max_deviation = 0.3 * free.deviation;
+  ASSERT_TRUE(decimate(0.2, host, held));
+  expect_sound(held);
+  EXPECT_LE(held.deviation, options.max_deviation);
+  EXPECT_EQ(held.deviation, largest_deviation(surface, held.surface, host.job));
+}
+
+/// Along z nothing changes but linearly: an eighth of the vertices is enough.
+TEST_F(DecimateSolid, LosesNothingWhereTheFieldIsLinear) {
+  Mesh mesh = kuhn_cube(8);
+  const auto field = [](const Vec3 &p) { return std::abs(p.x - 0.5) + 2 * p.z - p.y; };
+  set_scalars(mesh, field);
+  start_with(mesh);
+  CoarseSolid coarse(host.memory);
+  ASSERT_TRUE(decimate(0.05, host, coarse));
+  expect_sound(coarse);
+  for (std::size_t v = 0; v < coarse.mesh.points.size(); v++)
+    EXPECT_NEAR(coarse.mesh.scalars[v], field(coarse.mesh.points[v]), 1e-9);
+}
+
+TEST_F(DecimateSolid, RefusesTetsThatOverlap) {
+  Mesh mesh = kuhn_cube(4);
+  set_scalars(mesh, waves);
+  const std::size_t middle = [&] {
+    for (std::size_t v = 0; v < mesh.points.size(); v++)
+      if (mesh.points[v] == Vec3(0.5)) return v;
+    return std::size_t(0);
+  }();
+  mesh.points[middle] = Vec3(0.9, 0.5, 0.5);  // beyond its neighbours
+  start_with(mesh);
+  std::vector<std::uint8_t> kept(mesh.points.size(), 0);
+  kept[middle] = 1;
+  options.kept = {kept.data(), kept.size()};
+  CoarseSolid coarse(host.memory);
+  EXPECT_FALSE(decimate(0.9, host, coarse));
+}
+
+// ---- The link condition
+
+using Simplex = std::set<std::int32_t>;
+constexpr std::int32_t cone = -1;  // the vertex that all of the boundary is joined to
+
+std::set<Simplex> link_of(const std::vector<Simplex> &maximal, const Simplex &of) {
+  std::set<Simplex> link;
+  for (const Simplex &s : maximal) {
+    if (!std::includes(s.begin(), s.end(), of.begin(), of.end())) continue;
+    std::vector<std::int32_t> rest;
+    std::set_difference(s.begin(), s.end(), of.begin(), of.end(), std::back_inserter(rest));
+    for (std::size_t some = 1; some < std::size_t(1) << rest.size(); some++) {
+      Simplex face;
+      for (std::size_t k = 0; k < rest.size(); k++)
+        if ((some >> k) & 1u) face.insert(rest[k]);
+      link.insert(face);
+    }
+  }
+  return link;
+}
+
+bool satisfies_link_condition(const std::vector<Simplex> &maximal, std::int32_t a, std::int32_t b) {
+  const std::set<Simplex> of_a = link_of(maximal, {a}), of_b = link_of(maximal, {b});
+  std::set<Simplex> common;
+  std::set_intersection(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(), std::inserter(common, common.end()));
+  return common == link_of(maximal, {a, b});
+}
+
+TEST_F(DecimateSolid, AdmitsWhatTheLinkConditionAllows) {
+  int allowed = 0, refused = 0;
+  std::vector<Mesh> meshes = {kuhn_cube(1), kuhn_cube(3), kuhn_solid({4, 1, 1}, [](const Cell &) { return true; })};
+  meshes.push_back(kuhn_solid({3, 3, 1}, [](const Cell &c) { return c[0] != 1 || c[1] != 1; }));  // a ring
+  meshes.push_back(kuhn_solid({3, 3, 3}, [](const Cell &c) { return c != Cell{1, 1, 1}; }));      // a shell
+  for (unsigned seed = 0; seed < 20; seed++) meshes.push_back(random_solid(3, 0.9, seed));
+  for (const Mesh &mesh : meshes) {
+    start_with(mesh);
+    if (topology.nonmanifold_points > 0 || topology.nonmanifold_edges > 0) continue;
+    const SolidMesh solid(mesh.view(), boundary, 1, host.job);
+    std::vector<Simplex> maximal;
+    for (const Tet &t : mesh.tets) maximal.emplace_back(t.begin(), t.end());
+    for (const Triangle &t : boundary.triangles) maximal.push_back({t[0], t[1], t[2], cone});
+    for (std::int32_t a = 0; a < std::int32_t(mesh.points.size()); a++)
+      for (std::int32_t b : solid.neighbours.of(a)) {
+        if (solid.rank(b) > solid.rank(a)) continue;
+        SolidEdge edge;
+        Star star(host.memory);
+        const bool admits = look_around(solid, a, b, edge) && !breaks_topology(solid, edge) &&
+                            (!solid.on_boundary(b) || look_around_on_boundary(solid, edge, solid.point(a), star));
+        EXPECT_EQ(admits, satisfies_link_condition(maximal, a, b)) << "edge " << a << " " << b;
+        (admits ? allowed : refused)++;
+      }
+  }
+  EXPECT_GT(allowed, 100);
+  EXPECT_GT(refused, 100);
+}
+
+}  // namespace
+}  // namespace tetlod
