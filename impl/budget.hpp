@@ -23,7 +23,7 @@ inline bool collapses_edges(const Options &options) {
 /// Rounds of refine(), after the pass that every run with a target has. A small mesh is done soon, and has few vertices
 /// to go by: it gets more.
 inline int rounds_of(const Options &options, const Report &report) {
-  constexpr double most = 12, small_mesh = 2e5;
+  constexpr double most = 12, small_mesh = 1e5;
   if (options.effort != effort_accurate) return 0;
   return int(std::min(small_mesh / double(report.tets_in), most));
 }

@@ -19,6 +19,7 @@ constexpr double everywhere = 0.14, by_change = 0.42, small_mesh = 1e5, most_for
 constexpr double vertices_a_tet = 8, inner_a_tet = 8, share_without_rounds = 0.5;
 constexpr std::size_t block = 1024;
 constexpr int longest_walk = 200;
+constexpr std::int64_t leaf = 16;  // tets of a tree that is asked seldom
 
 /// Uniform in [0, 1), a number for each key.
 double random_unit(std::uint64_t key) {
@@ -123,7 +124,7 @@ class Locator {
       boxes[t].low -= margin;
       boxes[t].high += margin;
     }
-    tree_.build(std::move(boxes), 4, [&] { job.poll(0.1); });
+    tree_.build(std::move(boxes), leaf, [&] { job.poll(0.1); });
   }
 
   /// The tet of p, searched from tet `hint` on, or, where that is -1, from anywhere; -1 outside.

@@ -86,22 +86,32 @@ double SolidMesh::weight_of_planes() const {
   return std::min(least + by_share * std::pow(used / boundary, 6), most);
 }
 
+/// Of the tet's linear function; none for a flat one.
+Vec3 SolidMesh::gradient(const Tet &t) const {
+  const TetFrame frame(point(t[0]), point(t[1]), point(t[2]), point(t[3]));
+  const Vec3 g =
+      frame.gradient(vertex(t[0]).place[3], vertex(t[1]).place[3], vertex(t[2]).place[3], vertex(t[3]).place[3]);
+  return std::isfinite(g.x + g.y + g.z) ? g : Vec3(0);
+}
+
 void SolidMesh::find_quadrics(Job &job) {
+  Array<Vec3> gradients(tets.size(), &job.memory);
+  job.parallel.for_blocks(tets.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; t++) gradients[t] = gradient(tets[t]);
+    job.poll(0);
+  });
   const double weight = weight_of_planes();
   job.parallel.for_blocks(vertices.size(), 256, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t v = begin; v < end; v++) vertices[v].quadric = quadric_of(std::int32_t(v), weight);
+    for (std::size_t v = begin; v < end; v++) vertices[v].quadric = quadric_of(std::int32_t(v), gradients, weight);
     job.poll(0);
   });
 }
 
-LocalQuadric SolidMesh::quadric_of(std::int32_t v, double weight_of_planes) const {
+LocalQuadric SolidMesh::quadric_of(std::int32_t v, Span<const Vec3> gradients, double weight_of_planes) const {
   LocalQuadric quadric;
   for (std::int32_t t : tets_of.of(v)) {
-    const Tet &tet = tets[std::size_t(t)];
-    const TetFrame frame(point(tet[0]), point(tet[1]), point(tet[2]), point(tet[3]));
-    const Vec3 g = frame.gradient(vertex(tet[0]).place[3], vertex(tet[1]).place[3], vertex(tet[2]).place[3],
-                                  vertex(tet[3]).place[3]);
-    if (std::isfinite(g.x + g.y + g.z)) quadric.add_square({-g.x, -g.y, -g.z, 1}, 1);  // a flat tet has none
+    const Vec3 &g = gradients[std::size_t(t)];
+    quadric.add_square({-g.x, -g.y, -g.z, 1}, 1);
   }
   for (std::int32_t t : triangles_of.of(v)) {
     const Vec3 n = normal(t);

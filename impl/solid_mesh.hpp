@@ -64,7 +64,8 @@ class SolidMesh {
   void find_neighbours(Job &job);
   double weight_of_planes() const;
   void find_quadrics(Job &job);
-  LocalQuadric quadric_of(std::int32_t v, double weight_of_planes) const;
+  Vec3 gradient(const Tet &t) const;
+  LocalQuadric quadric_of(std::int32_t v, Span<const Vec3> gradients, double weight_of_planes) const;
   template <class Simplices>
   void merge_stars(const SolidEdge &edge, Simplices &simplices, StarLists &stars);
   void merge_neighbours(const SolidEdge &edge);

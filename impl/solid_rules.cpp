@@ -105,39 +105,37 @@ bool share_chord(const SolidMesh &mesh, const Ring &ring, const SolidEdge &edge)
   return false;
 }
 
-struct Corners {
-  Vec3 p[4];
-  double volume6() const { return det(p[0], p[1], p[2], p[3]); }
-  /// Square of the volume over the cube of the longest edge.
-  double shape2() const {
-    const double longest = std::max({length2(p[1] - p[0]), length2(p[2] - p[0]), length2(p[3] - p[0]),
-                                     length2(p[2] - p[1]), length2(p[3] - p[1]), length2(p[3] - p[2])});
-    const double volume = volume6();
-    return volume * volume / (longest * longest * longest);
-  }
-  /// Cheaper: no edge is longer than twice the longest one at a corner.
-  bool is_surely_sound() const {
-    const double volume = volume6(),
-                 most = 4 * std::max({length2(p[1] - p[0]), length2(p[2] - p[0]), length2(p[3] - p[0])});
-    return volume > 0 && volume * volume > least_shape * least_shape * most * most * most;
-  }
-};
+double longest2(const Vec3 *p) {
+  return std::max({length2(p[1] - p[0]), length2(p[2] - p[0]), length2(p[3] - p[0]), length2(p[2] - p[1]),
+                   length2(p[3] - p[1]), length2(p[3] - p[2])});
+}
+
+/// Square of a tet's volume over the cube of its longest edge.
+double shape2(const Vec3 *p) {
+  const double volume = det(p[0], p[1], p[2], p[3]), longest = longest2(p);
+  return volume * volume / (longest * longest * longest);
+}
+
+/// Whether tet t, with its corner v at another place, would turn over, or be flat and flatter than it is.
+bool is_flattened(const SolidMesh &mesh, const Tet &t, std::int32_t v, const Vec3 &place) {
+  constexpr double limit2 = least_shape * least_shape;
+  const Vec3 before[4] = {mesh.point(t[0]), mesh.point(t[1]), mesh.point(t[2]), mesh.point(t[3])};
+  const Vec3 after[4] = {t[0] == v ? place : before[0], t[1] == v ? place : before[1], t[2] == v ? place : before[2],
+                         t[3] == v ? place : before[3]};
+  const double volume = det(after[0], after[1], after[2], after[3]);
+  // No edge is longer than twice the longest one at a corner: of most tets that says enough.
+  const double most =
+      4 * std::max({length2(after[1] - after[0]), length2(after[2] - after[0]), length2(after[3] - after[0])});
+  if (volume > 0 && volume * volume > limit2 * most * most * most) return false;
+  if (!(volume > 0)) return true;
+  const double shape = shape2(after);
+  return shape < limit2 && shape < shape2(before);
+}
 
 template <class Tets>
 bool flattens_some(const SolidMesh &mesh, const Tets &tets, std::int32_t v, const Vec3 &place) {
-  for (std::int32_t t : tets) {
-    const Tet &tet = mesh.tets[std::size_t(t)];
-    Corners before, after;
-    for (std::size_t k = 0; k < 4; k++) {
-      before.p[k] = mesh.point(tet[k]);
-      after.p[k] = tet[k] == v ? place : before.p[k];
-    }
-    if (after.is_surely_sound()) continue;
-    if (!(after.volume6() > 0)) return true;
-    const double shape2 = after.shape2();
-    if (shape2 < least_shape * least_shape && shape2 < before.shape2()) return true;
-  }
-  return false;
+  return std::any_of(tets.begin(), tets.end(),
+                     [&](std::int32_t t) { return is_flattened(mesh, mesh.tets[std::size_t(t)], v, place); });
 }
 
 /// The triangle with the half-edge from -> to; -1 if there is none.
