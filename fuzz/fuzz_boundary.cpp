@@ -151,7 +151,7 @@ void decimate(Stage &stage, const tetlod::Surface &before, const tetlod::Surface
   const double field_weight = decode_field_weight(in, before);
   const double bound = in.one_in(4) ? in.fraction() * in.fraction() : 0;
   const double max_deviation = before.points.empty() ? 0 : bound * tetlod::box_of(before.points).diagonal();
-  const tetlod::DecimateOptions how{options.sigma, options.lambda, options.clean_edges, max_deviation, field_weight};
+  const tetlod::DecimateOptions how{options.sigma, options.lambda, options.clean_edges, max_deviation, {field_weight}};
   tetlod::Surface after(stage.memory());
   copy(before, after);
   tetlod::DecimateReport report;

@@ -1,98 +1,49 @@
 #include "adaptive_mesh.hpp"
 
-#include <algorithm>
-
-#include "face_sweep.hpp"
-
 namespace tetlod {
 
-Triangle sorted_face(const Tet &t, int k) {
-  Triangle f{t[std::size_t(tet_face[k][0])], t[std::size_t(tet_face[k][1])], t[std::size_t(tet_face[k][2])]};
-  if (f[0] > f[1]) std::swap(f[0], f[1]);
-  if (f[1] > f[2]) std::swap(f[1], f[2]);
-  if (f[0] > f[1]) std::swap(f[0], f[1]);
-  return f;
-}
-
-void AdaptiveMesh::connect(Job &job) {
-  neighbours.assign(tets.size(), Tet{-1, -1, -1, -1});
+template <std::size_t m>
+void AdaptiveMesh<m>::connect(Job &job) {
+  TetComplex::connect(job);
   error.assign(tets.size(), 0.0);
   first_probe.assign(tets.size(), -1);
-  touched_.assign(tets.size(), 0);
-  tet_of.assign(points.size(), -1);
-  fixed.assign(points.size(), 0);
-  const MeshView view{points, values, tets};
-  FaceSweep(view, {}, job).visit([&](std::size_t, std::int32_t, const FaceUse *first, const FaceUse *last) {
-    if (last - first != 2) return;
-    neighbours[first[0].tet()][first[0].corner()] = std::int32_t(first[1].tet());
-    neighbours[first[1].tet()][first[1].corner()] = std::int32_t(first[0].tet());
-  });
-  for (std::size_t t = 0; t < tets.size(); t++)
-    for (std::size_t k = 0; k < 4; k++) {
-      tet_of[std::size_t(tets[t][k])] = std::int32_t(t);
-      if (neighbours[t][k] >= 0) continue;
-      for (int corner : tet_face[k]) fixed[std::size_t(tets[t][std::size_t(corner)])] = 1;
-    }
-  find_touching(job);
 }
 
-/// Vertices that have tets beyond those that their faces lead to, and the ends of edges that do.
-void AdaptiveMesh::find_touching(Job &job) {
-  Array<std::int32_t> count(points.size(), 0, &memory_), around(&memory_);
-  for (const Tet &t : tets)
-    for (std::int32_t v : t) count[std::size_t(v)]++;
-  for (std::size_t v = 0; v < points.size(); v++) {
-    if (v % 1024 == 0) job.poll(0.1);
-    if (!fixed[v]) continue;
-    star(std::int32_t(v), around);
-    if (std::int32_t(around.size()) != count[v]) fixed[v] = touching;
-  }
-  Array<std::pair<std::int32_t, std::int32_t>> edges(&memory_);  // of the boundary's triangles
-  for (std::size_t t = 0; t < tets.size(); t++)
-    for (int k = 0; k < 4; k++) {
-      if (neighbours[t][std::size_t(k)] >= 0) continue;
-      const Triangle f = sorted_face(tets[t], k);
-      for (const auto &[a, b] : {std::pair(f[0], f[1]), std::pair(f[0], f[2]), std::pair(f[1], f[2])})
-        edges.push_back({a, b});
-    }
-  std::sort(edges.begin(), edges.end(), PollingLess(job, 0.1, std::less<>()));
-  for (std::size_t i = 2; i < edges.size(); i++)
-    if (edges[i] == edges[i - 2]) fixed[std::size_t(edges[i].first)] = fixed[std::size_t(edges[i].second)] = touching;
-}
-
-void AdaptiveMesh::measure(std::int32_t t) {
+template <std::size_t m>
+void AdaptiveMesh<m>::measure(std::int32_t t) {
   const TetFrame f = frame(t);
   double sum = 0, w[4];
   for_probes(t, [&](std::int32_t p) {
     f.weights(probes[std::size_t(p)].point, w);
-    const double r = residual(tets[std::size_t(t)], w, probes[std::size_t(p)]);
-    sum += r * r;
+    sum += square(residual(tets[std::size_t(t)], w, probes[std::size_t(p)]));
   });
   error[std::size_t(t)] = sum;
 }
 
-double AdaptiveMesh::total_error() const {
+template <std::size_t m>
+double AdaptiveMesh<m>::total_error() const {
   double sum = 0;
   for (double e : error) sum += e;
   return sum;
 }
 
 /// What replace() would make of the error, not summed further than `limit`.
-double AdaptiveMesh::error_after(Span<const std::int32_t> old, Span<const Tet> fresh, const TetFrame *frames,
-                                 double limit) const {
+template <std::size_t m>
+double AdaptiveMesh<m>::error_after(Span<const std::int32_t> old, Span<const Tet> fresh, const TetFrame *frames,
+                                    double limit) const {
   double sum = 0, w[4];
   for (std::int32_t t : old)
     for (std::int32_t p = first_probe[std::size_t(t)]; p >= 0; p = next_probe[std::size_t(p)]) {
-      const Probe &probe = probes[std::size_t(p)];
-      const double r = residual(fresh[home_among(frames, fresh.size(), 0, probe.point, w)], w, probe);
-      sum += r * r;
+      const Probe<m> &probe = probes[std::size_t(p)];
+      sum += square(residual(fresh[home_among(frames, fresh.size(), 0, probe.point, w)], w, probe));
       if (sum > limit) return sum;
     }
   return sum;
 }
 
-bool AdaptiveMesh::is_better(Span<const std::int32_t> old, Span<const Tet> fresh, double price, double old_error,
-                             double &best) const {
+template <std::size_t m>
+bool AdaptiveMesh<m>::is_better(Span<const std::int32_t> old, Span<const Tet> fresh, double price, double old_error,
+                                double &best) const {
   TetFrame frames[largest_cavity];
   for (std::size_t i = 0; i < fresh.size(); i++) {
     if (!is_sound(fresh[i], least_shape)) return false;
@@ -105,65 +56,18 @@ bool AdaptiveMesh::is_better(Span<const std::int32_t> old, Span<const Tet> fresh
   return true;
 }
 
-std::int32_t AdaptiveMesh::slot() {
-  if (!free_.empty()) {
-    const std::int32_t t = free_.back();
-    free_.pop_back();
-    return t;
-  }
-  tets.push_back({});
-  neighbours.push_back({});
-  error.push_back(0);
-  first_probe.push_back(-1);
-  touched_.push_back(0);
-  return std::int32_t(tets.size()) - 1;
-}
-
-void AdaptiveMesh::replace(Span<const std::int32_t> old, Span<const Tet> fresh, Array<std::int32_t> &made) {
-  outer_.clear();
-  Array<std::int32_t> homeless(&memory_);
+template <std::size_t m>
+void AdaptiveMesh<m>::replace(Span<const std::int32_t> old, Span<const Tet> fresh, Array<std::int32_t> &made) {
+  Array<std::int32_t> homeless(&memory());
   for (std::int32_t t : old) {
-    for (int k = 0; k < 4; k++) {
-      const std::int32_t beyond = neighbours[std::size_t(t)][std::size_t(k)];
-      if (std::find(old.begin(), old.end(), beyond) != old.end()) continue;
-      int side = 0;
-      if (beyond >= 0)
-        while (neighbours[std::size_t(beyond)][std::size_t(side)] != t) side++;
-      outer_.push_back({sorted_face(tets[std::size_t(t)], k), beyond, side});
-    }
     for_probes(t, [&](std::int32_t p) { homeless.push_back(p); });
+    error[std::size_t(t)] = 0;
+    first_probe[std::size_t(t)] = -1;
   }
-  for (std::size_t i = old.size(); i-- > 0;) {
-    tets[std::size_t(old[i])][0] = -1;
-    error[std::size_t(old[i])] = 0;
-    first_probe[std::size_t(old[i])] = -1;
-    touch(old[i]);
-    free_.push_back(old[i]);
-  }
-  made.clear();
-  for (const Tet &t : fresh) {
-    const std::int32_t s = slot();
-    made.push_back(s);
-    tets[std::size_t(s)] = t;
-    neighbours[std::size_t(s)] = {-1, -1, -1, -1};
-    first_probe[std::size_t(s)] = -1;
-    for (std::int32_t v : t) tet_of[std::size_t(v)] = s;
-    // A face of the cavity's wall, or one that another fresh tet waits with; what nobody claims is boundary.
-    for (int k = 0; k < 4; k++) {
-      const Triangle f = sorted_face(t, k);
-      const auto wall =
-          std::find_if(outer_.begin(), outer_.end(), [&](const OuterFace &face) { return face.vertices == f; });
-      if (wall == outer_.end()) {
-        outer_.push_back({f, s, k});
-        continue;
-      }
-      neighbours[std::size_t(s)][std::size_t(k)] = wall->beyond;
-      if (wall->beyond >= 0) neighbours[std::size_t(wall->beyond)][std::size_t(wall->side)] = s;
-      *wall = outer_.back();
-      outer_.pop_back();
-    }
-  }
-  Array<TetFrame> frames(&memory_);
+  replace_tets(old, fresh, made);
+  error.resize(tets.size(), 0);
+  first_probe.resize(tets.size(), -1);
+  Array<TetFrame> frames(&memory());
   for (const Tet &t : fresh) frames.push_back(frame(t));
   double w[4];
   for (std::size_t i = homeless.size(); i-- > 0;) {
@@ -176,34 +80,9 @@ void AdaptiveMesh::replace(Span<const std::int32_t> old, Span<const Tet> fresh, 
   }
 }
 
-/// From the tets in `around` on, across faces that hold the simplex. push: false where the list is full.
-template <class List, class Push>
-bool AdaptiveMesh::flood(const std::int32_t *simplex, std::size_t size, List &around, const Push &push) const {
-  for (std::size_t i = 0; i < around.size(); i++) {
-    const Tet &tet = tets[std::size_t(around[i])];
-    for (std::size_t k = 0; k < 4; k++) {
-      const std::int32_t n = neighbours[std::size_t(around[i])][k];
-      if (n < 0 || std::find(simplex, simplex + size, tet[k]) != simplex + size) continue;
-      if (std::find(around.begin(), around.end(), n) == around.end() && !push(n)) return false;
-    }
-  }
-  return true;
-}
-
-bool AdaptiveMesh::star(std::int32_t v, Cavity &around) const {
-  around.clear();
-  around.push(tet_of[std::size_t(v)]);
-  return flood(&v, 1, around, [&](std::int32_t t) { return around.push(t); });
-}
-
-void AdaptiveMesh::tets_with(std::int32_t t, const std::int32_t *simplex, std::size_t size,
-                             Array<std::int32_t> &around) const {
-  around.clear();
-  around.push_back(t);
-  flood(simplex, size, around, [&](std::int32_t n) {
-    around.push_back(n);
-    return true;
-  });
-}
+template class AdaptiveMesh<1>;
+template class AdaptiveMesh<2>;
+template class AdaptiveMesh<3>;
+template class AdaptiveMesh<4>;
 
 }  // namespace tetlod

@@ -52,7 +52,8 @@ Array<std::int32_t> find_sources(const Options &options, const Original &origina
 
 template <class Way>
 void carry_along(const Way &way, std::size_t tuples, const SubmittedField &field, Job &job, Result &result) {
-  CarriedField &carried = result.fields.emplace_back(field, job.memory);
+  CarriedField &carried =
+      result.fields.emplace_back(field.name, field.association, field.values.components, job.memory);
   carried.values.resize(tuples * std::size_t(carried.components));
   transfer(way, field.values, packed_reals(carried.values.data(), tuples, carried.components), job);
 }
@@ -74,6 +75,22 @@ void carry_fields(const Input &input, const Options &options, const Original &or
       carry_along(result.stencil, result.mesh.points.size(), field, job, result);
     else
       carry_along(Span<const std::int32_t>(sources), result.mesh.tets.size(), field, job, result);
+  }
+}
+
+void split_fields(const Input &input, Job &job, Result &result) {
+  if (input.steering.empty()) return;
+  const std::size_t fields = input.steering_fields(), points = result.mesh.points.size();
+  const Array<double> together = std::move(result.mesh.scalars);
+  const auto take = [&](std::size_t k, Array<double> &values) {
+    values.clear();
+    values.reserve(points);
+    for (std::size_t v = 0; v < points; v++) values.push_back(together[v * fields + k]);
+  };
+  take(0, result.mesh.scalars);
+  for (std::size_t k = 1; k < fields; k++) {
+    const std::string &name = input.steering[k - 1].name;
+    take(k, result.fields.emplace_back(name, Association::point, 1, job.memory).values);
   }
 }
 

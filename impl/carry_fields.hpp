@@ -12,6 +12,9 @@ namespace tetlod {
 void carry_fields(const Input &input, const Options &options, const Original &original, const Boundary &boundary,
                   Job &job, Result &result);
 
+/// result.mesh.scalars, of all fields that steer, becomes those of the first; result.fields gets the others.
+void split_fields(const Input &input, Job &job, Result &result);
+
 /// Writes result.stencil, where it is not there yet, from the input of the run, which is read again, or from
 /// what is prepared of it.
 void find_stencil(const Input &input, const Options &options, Prepared &prepared, Job &job, Result &result);

@@ -10,22 +10,26 @@ namespace {
 
 class Replay {
  public:
-  Replay(const Surface &surface, const SurfaceTopology &topology, Job &job) : topology_(topology), job_(job) {
+  Replay(const Surface &surface, const SurfaceTopology &topology, Job &job)
+      : topology_(topology), job_(job), fields_(surface.fields) {
     for (std::int32_t id : topology.vertex_of) {
       point_.push_back(surface.points[std::size_t(id)]);
-      scalar_.push_back(surface.scalars[std::size_t(id)]);
+      for (std::size_t k = 0; k < fields_; k++) scalar_.push_back(surface.scalars[std::size_t(id) * fields_ + k]);
       origin_.push_back(surface.origin[std::size_t(id)]);
       into_.push_back(std::int32_t(into_.size()));
     }
     touched_.resize(into_.size(), 0);
   }
 
-  void collapse(const Collapse &c, Values values) {
+  /// logged: its values; null: they lie along the edge.
+  void collapse(const Collapse &c, const double *logged) {
     const auto from = std::size_t(c.from), to = std::size_t(c.to);
     if (c.moves) {
-      scalar_[to] = values == Values::logged
-                        ? c.scalar
-                        : value_along_edge(c.point, point_[from], point_[to], scalar_[from], scalar_[to]);
+      for (std::size_t k = 0; k < fields_; k++) {
+        double &value = scalar_[to * fields_ + k];
+        value = logged ? logged[k]
+                       : value_along_edge(c.point, point_[from], point_[to], scalar_[from * fields_ + k], value);
+      }
       point_[to] = c.point;
       origin_[to] = -1;
     }
@@ -41,6 +45,7 @@ class Replay {
       begin_at_last_centre(t);
       out.triangles.push_back(t);
     }
+    out.fields = fields_;
     weld({point_, scalar_, origin_, topology_.vertex_of}, surface_points, job_, out);
   }
 
@@ -64,6 +69,7 @@ class Replay {
 
   const SurfaceTopology &topology_;
   Job &job_;
+  std::size_t fields_;
   Array<Vec3> point_{&job_.memory};
   Array<double> scalar_{&job_.memory};
   Array<std::int32_t> origin_{&job_.memory};
@@ -91,19 +97,19 @@ void weld(const CutVertices &vertices, std::size_t surface_points, Job &job, Sur
       if (n < 0) {
         n = std::int32_t(out.points.size());
         out.points.push_back(vertices.points[v]);
-        out.scalars.push_back(vertices.scalars[v]);
+        for (std::size_t k = 0; k < out.fields; k++) out.scalars.push_back(vertices.scalars[v * out.fields + k]);
         out.origin.push_back(vertices.origin[v]);
       }
       corner = n;
     }
 }
 
-void replay(const CollapseLog &log, std::size_t count, const SurfaceTopology &topology, Values values, Job &job,
+void replay(const CollapseLog &log, std::size_t count, const SurfaceTopology &topology, MovedValues values, Job &job,
             Surface &surface) {
   Replay again(surface, topology, job);
   for (std::size_t i = 0; i < count; i++) {
     if (i % 16384 == 0) job.poll(double(i) / double(count));
-    again.collapse(log.collapses[i], values);
+    again.collapse(log.collapses[i], values == MovedValues::logged ? &log.scalars[i * surface.fields] : nullptr);
   }
   Surface simplified(job.memory);
   again.write(surface.points.size(), simplified);

@@ -30,6 +30,7 @@ auto &at(T &array, OpenMesh::BaseHandle handle) {
   return array[std::size_t(handle.idx())];
 }
 
+template <std::size_t m>
 class Decimator {
  public:
   Decimator(const Surface &surface, const SurfaceTopology &topology, Span<const std::uint8_t> locked,
@@ -45,7 +46,7 @@ class Decimator {
     copy_connectivity(topology);
     for (std::size_t v = 0; v < point_.size(); v++) update_sums(VertexHandle(int(v)));
     if (options.max_deviation > 0) deviation_.emplace(surface, options.max_deviation, job);
-    if (options.field_weight > 0) quadrics_.find(options.field_weight, triangle_, point_, scalar_);
+    if (options.sees_fields()) quadrics_.find(options.field_weight, triangle_, point_, values_);
     if (careful_) build_tree();
   }
 
@@ -74,7 +75,8 @@ class Decimator {
   /// What is left, the cut welded again.
   void write(Surface &out) const {
     for (auto f = mesh_.faces_sbegin(); f != mesh_.faces_end(); ++f) out.triangles.push_back(at(triangle_, *f));
-    weld({point_, scalar_, origin_, id_}, surface_.points.size(), job_, out);
+    out.fields = m;
+    weld({point_, {values_.data()->data(), m * values_.size()}, origin_, id_}, surface_.points.size(), job_, out);
   }
 
  private:
@@ -85,7 +87,7 @@ class Decimator {
     for (std::int32_t id : topology.vertex_of) {
       const auto i = std::size_t(id);
       point_.push_back(surface_.points[i]);
-      scalar_.push_back(surface_.scalars[i]);
+      values_.push_back(reinterpret_cast<const Values<m> *>(surface_.scalars.data())[i]);
       origin_.push_back(surface_.origin[i]);
       id_.push_back(id);
       touching_.push_back(topology.touching[i]);
@@ -159,7 +161,8 @@ class Decimator {
 
   struct Placement {
     Vec3 point;
-    double scalar, cost;
+    Values<m> values;
+    double cost;
   };
 
   Placement place(HalfedgeHandle h) const {
@@ -174,24 +177,25 @@ class Decimator {
     for (HalfedgeHandle side : {h, o}) volume.add(at(plane_, mesh_.face_handle(side)), -1);
     const VertexHandle fixed = at(locked_, from) ? from : at(locked_, to) ? to : VertexHandle();
     if (fixed.is_valid() && changes_volume(volume, point(fixed), length2_e))
-      return {point(fixed), at(scalar_, fixed), std::numeric_limits<double>::infinity()};
+      return {point(fixed), at(values_, fixed), std::numeric_limits<double>::infinity()};
     if (!quadrics_.empty()) return place_in_field(from, to, fixed, volume, link, length2_e);
     const Vec3 x = fixed.is_valid() ? point(fixed) : place_vertex(volume, link, length2_e, lambda_);
-    const double scalar = value_along_edge(x, point(from), point(to), at(scalar_, from), at(scalar_, to));
-    return {x, scalar, collapse_cost(link, x, length2_e)};
+    const Values<m> values = values_along_edge(x, point(from), point(to), at(values_, from), at(values_, to));
+    return {x, values, collapse_cost(link, x, length2_e)};
   }
 
   Placement place_in_field(VertexHandle from, VertexHandle to, VertexHandle fixed, const VolumeSums &volume,
                            const LinkSums &link, double length2_e) const {
-    const FieldQuadric quadric = quadrics_.of_edge(from.idx(), to.idx());
-    const double mean_value = 0.5 * (at(scalar_, from) + at(scalar_, to));
-    Vec4 x = quadrics_.with_value(0.5 * (point(from) + point(to)), mean_value);
+    const FieldQuadric<3 + m> quadric = quadrics_.of_edge(from.idx(), to.idx());
+    Values<m> mean;
+    for (std::size_t k = 0; k < m; k++) mean[k] = 0.5 * (at(values_, from)[k] + at(values_, to)[k]);
+    Vector<3 + m> x = quadrics_.with_values(0.5 * (point(from) + point(to)), mean);
     if (fixed.is_valid()) {
-      x = quadrics_.with_value(point(fixed), at(scalar_, fixed));
+      x = quadrics_.with_values(point(fixed), at(values_, fixed));
     } else if (!place_by_quadric(quadric, volume, x)) {
-      return {point(to), mean_value, std::numeric_limits<double>::infinity()};
+      return {point(to), mean, std::numeric_limits<double>::infinity()};
     }
-    return {{x[0], x[1], x[2]}, quadrics_.value_of(x), collapse_cost(quadric, x, link, length2_e)};
+    return {{x[0], x[1], x[2]}, quadrics_.values_of(x), collapse_cost(quadric, x, link, length2_e)};
   }
 
   void update_cost(OpenMesh::EdgeHandle edge) {
@@ -289,9 +293,10 @@ class Decimator {
   void collapse(HalfedgeHandle h, const Placement &placement) {
     const VertexHandle from = mesh_.from_vertex_handle(h), to = mesh_.to_vertex_handle(h);
     const HalfedgeHandle o = mesh_.opposite_halfedge_handle(h);
-    log_.collapses.push_back({from.idx(), to.idx(), !at(locked_, to), placement.point, placement.scalar});
+    log_.collapses.push_back({from.idx(), to.idx(), !at(locked_, to), placement.point});
+    log_.scalars.insert(log_.scalars.end(), placement.values.begin(), placement.values.end());
     if (!at(locked_, to)) {
-      at(scalar_, to) = placement.scalar;
+      at(values_, to) = placement.values;
       at(point_, to) = placement.point;
       at(origin_, to) = -1;
     }
@@ -349,13 +354,13 @@ class Decimator {
   MemoryCharge charge_;
   Mesh mesh_;
   Array<Vec3> point_{&job_.memory};
-  Array<double> scalar_{&job_.memory};
+  Array<Values<m>> values_{&job_.memory};
   Array<std::int32_t> id_{&job_.memory}, origin_{&job_.memory};
   Array<std::uint8_t> locked_{&job_.memory}, touching_{&job_.memory};
   Array<Triangle> triangle_{&job_.memory};
   Array<TrianglePlane> plane_{&job_.memory};
   std::optional<DeviationLimit> deviation_;
-  FieldQuadrics quadrics_{job_.memory};  // empty: the paper's cost
+  FieldQuadrics<m> quadrics_{job_.memory};  // empty: the paper's cost
   Array<VolumeSums> volume_{&job_.memory};
   Array<LinkSums> link_{&job_.memory};
   Array<std::int32_t> stamp_{&job_.memory};
@@ -365,11 +370,10 @@ class Decimator {
   Star star_{job_.memory};
 };
 
-}  // namespace
-
-DecimateReport decimate_boundary(Surface &surface, const SurfaceTopology &topology, Span<const std::uint8_t> locked,
-                                 const DecimateOptions &options, Job &job, CollapseLog &log) {
-  Decimator decimator(surface, topology, locked, options, log, job);
+template <std::size_t m>
+DecimateReport decimate(Surface &surface, const SurfaceTopology &topology, Span<const std::uint8_t> locked,
+                        const DecimateOptions &options, Job &job, CollapseLog &log) {
+  Decimator<m> decimator(surface, topology, locked, options, log, job);
   DecimateReport report;
   report.edges_in = decimator.edges();
   const std::int64_t target = edges_kept(options.sigma, report.edges_in);
@@ -383,6 +387,13 @@ DecimateReport decimate_boundary(Surface &surface, const SurfaceTopology &topolo
   report.deviation = largest_deviation(surface, simplified, job);
   surface = std::move(simplified);
   return report;
+}
+
+}  // namespace
+
+DecimateReport decimate_boundary(Surface &surface, const SurfaceTopology &topology, Span<const std::uint8_t> locked,
+                                 const DecimateOptions &options, Job &job, CollapseLog &log) {
+  return with_fields(surface.fields, [&](auto m) { return decimate<m>(surface, topology, locked, options, job, log); });
 }
 
 }  // namespace tetlod

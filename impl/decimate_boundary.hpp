@@ -1,5 +1,6 @@
 // 3.2  Decimation of the boundary by edge collapse: Lindstrom-Turk placement, shape cost, nothing broken.
 #pragma once
+#include <array>
 #include <cstdint>
 
 #include "collapse_log.hpp"
@@ -14,8 +15,11 @@ struct DecimateOptions {
   double lambda = 0.1;       ///< shape optimization weight
   double clean_edges = 0;    ///< edges shorter than this fraction of the diagonal are collapsed first
   double max_deviation = 0;  ///< distance between the boundaries, measured at the vertices of both; 0: no limit
-  double field_weight = 0;   ///< length that a unit of the field counts as; 0: the paper's cost, which does not see it
-  bool careful = true;       ///< no collapse makes the surface cross itself; else that is for the caller to find out
+  std::array<double, most_fields> field_weight{};  ///< length that a unit of each field counts as; 0, of the first:
+                                                   ///< the paper's cost, which sees none
+  bool careful = true;  ///< no collapse makes the surface cross itself; else that is for the caller to find out
+
+  bool sees_fields() const { return field_weight[0] > 0; }
 };
 
 struct DecimateReport {

@@ -26,25 +26,27 @@ constexpr double volume_to_lose = 0.01;
 constexpr double longest_step = 0.5;
 constexpr std::size_t largest_batch = 256;
 
+template <std::size_t m>
 struct SolidCollapse {
   using allocator_type = std::pmr::polymorphic_allocator<std::byte>;
   explicit SolidCollapse(allocator_type memory) : star(*static_cast<Memory *>(memory.resource())) {}
   SolidEdge old;
-  Vec4 place{};
+  Vector<3 + m> place{};
   std::int32_t found_at = -1;  ///< the end whose cheapest edge it is
   bool of_boundary = false;
   Star star;  ///< of the boundary
 };
 
+template <std::size_t m>
 class SolidDecimator {
  public:
   SolidDecimator(const MeshView &original, const Boundary &boundary, const Surface &surface,
                  const SolidOptions &options, Job &job)
       : original_(original),
-        range_(range_of(original.scalars)),
-        scale_(range_.second > range_.first ? box_of(original.points).diagonal() / (range_.second - range_.first) : 1),
+        range_(range_of(original)),
+        scales_(scales_of(original, range_)),
         job_(job),
-        mesh_(original, boundary, scale_, job),
+        mesh_(original, boundary, scales_, job),
         cheapest_(original.points.size(), CheapestEdge(), &job.memory),
         moved_(original.points.size(), -1, &job.memory),
         left_(&job.memory),
@@ -84,8 +86,8 @@ class SolidDecimator {
       const bool moved = mesh_.point(v) != original_.points[std::size_t(v)];
       number[std::size_t(v)] = std::int32_t(out.points.size());
       out.points.push_back(mesh_.point(v));
-      const double scalar = std::clamp(mesh_.vertex(v).place[3] / scale_, range_.first, range_.second);
-      out.scalars.push_back(moved ? scalar : original_.scalars[std::size_t(v)]);
+      const Values<m> values = moved ? values_of(v) : original_.values<m>()[std::size_t(v)];
+      out.scalars.insert(out.scalars.end(), values.begin(), values.end());
       origin.push_back(moved ? -1 : v);
     }
     const auto append = [&](const auto &simplices, auto &to) {
@@ -110,9 +112,27 @@ class SolidDecimator {
   /// Of a vertex without such an edge that is looked at again after the round.
   static constexpr int waiting = -2;
 
-  static std::pair<double, double> range_of(Span<const double> values) {
-    const auto [low, high] = std::minmax_element(values.begin(), values.end());
-    return {*low, *high};
+  using Place = Vector<3 + m>;
+
+  static ValueRange<m> range_of(const MeshView &original) {
+    ValueRange<m> range;
+    for (const Values<m> &values : original.values<m>()) range.add(values);
+    return range;
+  }
+
+  /// The first field's range counts as the diagonal.
+  static Values<m> scales_of(const MeshView &original, const ValueRange<m> &range) {
+    const double width = range.high[0] - range.low[0];
+    const double scale = width > 0 ? box_of(original.points).diagonal() / width : 1;
+    Values<m> scales;
+    for (std::size_t i = 0; i < m; i++) scales[i] = scale * original.scales.weighted[i];
+    return scales;
+  }
+
+  Values<m> values_of(std::int32_t v) const {
+    Values<m> values;
+    for (std::size_t i = 0; i < m; i++) values[i] = mesh_.vertex(v).place[3 + i] / scales_[i];
+    return range_.clamp(values);
   }
 
   CheapestEdge &cheapest(std::int32_t v) { return cheapest_[std::size_t(v)]; }
@@ -126,10 +146,11 @@ class SolidDecimator {
   BestOfEdge cost(std::int32_t stays, std::int32_t gone) const {
     if (mesh_.rank(stays) < mesh_.rank(gone)) std::swap(stays, gone);
     if (!may_go(gone) || mesh_.rank(stays) == Rank::touching) return {0, infinity};
-    const SolidVertex &a = mesh_.vertex(stays), &b = mesh_.vertex(gone);
-    const Vec4 d = minus(b.place, a.place);
+    const auto &a = mesh_.vertex(stays), &b = mesh_.vertex(gone);
+    const Place d = minus(b.place, a.place);
     BestOfEdge best = best_of_edge(a.quadric, b.quadric, d, keeps_place(stays, gone));
-    best.cost += shape_share * (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) * (a.quadric.a[9] + b.quadric.a[9]);
+    constexpr std::size_t tets = entry_of(3, 3);
+    best.cost += shape_share * length2(point_of(d)) * (a.quadric.a[tets] + b.quadric.a[tets]);
     return best;
   }
 
@@ -183,10 +204,10 @@ class SolidDecimator {
 
   void collapse_some(Span<const std::int32_t> items, double limit, std::int64_t target) {
     changed_.clear();
-    sweep<SolidCollapse>(
+    sweep<SolidCollapse<m>>(
         items, batches_of(items.size(), largest_batch, job_.memory), job_, mesh_,
-        [&](std::int32_t v, SolidCollapse &collapse) { return find(v, limit, collapse); },
-        [&](const SolidCollapse &collapse) {
+        [&](std::int32_t v, SolidCollapse<m> &collapse) { return find(v, limit, collapse); },
+        [&](const SolidCollapse<m> &collapse) {
           if (mesh_.count > target) make(collapse);
         });
   }
@@ -199,7 +220,7 @@ class SolidDecimator {
   // ---- A collapse
 
   /// The cheapest admissible one of an edge of v within the limit. A vertex moves once a round.
-  bool find(std::int32_t v, double limit, SolidCollapse &collapse) {
+  bool find(std::int32_t v, double limit, SolidCollapse<m> &collapse) {
     if (!mesh_.has_vertex(v) || moved_[std::size_t(v)] == round_) return false;
     if (!is_known(cheapest(v))) find_cheapest_edge(v, -infinity);
     for (; cheapest(v).cost <= limit; find_cheapest_edge(v, cheapest(v).cost))
@@ -207,7 +228,7 @@ class SolidDecimator {
     return false;
   }
 
-  bool is_admissible(std::int32_t v, const CheapestEdge &cheapest, SolidCollapse &collapse) {
+  bool is_admissible(std::int32_t v, const CheapestEdge &cheapest, SolidCollapse<m> &collapse) {
     std::int32_t stays = v, gone = cheapest.other;
     if (mesh_.rank(stays) < mesh_.rank(gone)) std::swap(stays, gone);
     SolidEdge &edge = collapse.old;
@@ -218,29 +239,28 @@ class SolidDecimator {
   }
 
   /// The best place near the edge, or, where that is none, the best along it.
-  bool find_place(double t, SolidCollapse &collapse) {
+  bool find_place(double t, SolidCollapse<m> &collapse) {
     const SolidEdge &edge = collapse.old;
-    const SolidVertex &stays = mesh_.vertex(edge.stays), &gone = mesh_.vertex(edge.gone);
-    const Vec4 d = minus(gone.place, stays.place), best = along(stays.place, t, d);
+    const auto &stays = mesh_.vertex(edge.stays), &gone = mesh_.vertex(edge.gone);
+    const Place d = minus(gone.place, stays.place), best = along(stays.place, t, d);
     StepConstraint constraint;
-    if (collapse.of_boundary) constraint = keeping_volume(mesh_, edge, {best[0], best[1], best[2]});
+    if (collapse.of_boundary) constraint = keeping_volume(mesh_, edge, point_of(best));
     if (!keeps_place(edge.stays, edge.gone)) {
-      LocalQuadric sum = stays.quadric.moved(minus(best, stays.place));
+      LocalQuadric<3 + m> sum = stays.quadric.moved(minus(best, stays.place));
       sum.add(gone.quadric.moved(minus(best, gone.place)));
-      Vec4 step;
+      Place step;
       if (step_to_least(sum, constraint, step) && is_short(step, d) && suits(along(best, 1, step), collapse))
         return true;
     }
     return std::abs(constraint.offset) / 6 <= volume_of_collapse_ && suits(best, collapse);
   }
 
-  static bool is_short(const Vec4 &step, const Vec4 &edge) {
-    const Vec3 by(step[0], step[1], step[2]), whole(edge[0], edge[1], edge[2]);
-    return length2(by) <= longest_step * longest_step * length2(whole);
+  static bool is_short(const Place &step, const Place &edge) {
+    return length2(point_of(step)) <= longest_step * longest_step * length2(point_of(edge));
   }
 
-  bool suits(const Vec4 &place, SolidCollapse &collapse) {
-    const Vec3 point(place[0], place[1], place[2]);
+  bool suits(const Place &place, SolidCollapse<m> &collapse) {
+    const Vec3 point = point_of(place);
     collapse.place = place;
     if (flattens(mesh_, collapse.old, point)) return false;
     if (!collapse.of_boundary) return true;
@@ -249,7 +269,7 @@ class SolidDecimator {
            !makes_sliver(star);
   }
 
-  void make(const SolidCollapse &collapse) {
+  void make(const SolidCollapse<m> &collapse) {
     const std::int32_t v = collapse.old.stays;
     if (deviation_ && collapse.of_boundary) {
       if (deviation_->is_passed(collapse.star)) {
@@ -270,10 +290,10 @@ class SolidDecimator {
   }
 
   const MeshView &original_;
-  std::pair<double, double> range_;
-  double scale_;  // length that a unit of the scalar counts as: the range is as long as the diagonal
+  ValueRange<m> range_;
+  Values<m> scales_;  // length that a unit of each field counts as
   Job &job_;
-  SolidMesh mesh_;
+  SolidMesh<m> mesh_;
   std::optional<DeviationLimit> deviation_;
   double volume_of_collapse_ = 0;
   int round_ = 0, round_of_costs_ = 0;
@@ -286,9 +306,11 @@ class SolidDecimator {
 
 void decimate_solid(const MeshView &original, const Boundary &boundary, const Surface &surface,
                     const SolidOptions &options, Job &job, TetMesh &mesh, Array<std::int32_t> &origin) {
-  SolidDecimator decimator(original, boundary, surface, options, job);
-  decimator.run(options.tets);
-  decimator.write(mesh, origin);
+  with_fields(original.fields, [&](auto m) {
+    SolidDecimator<m> decimator(original, boundary, surface, options, job);
+    decimator.run(options.tets);
+    decimator.write(mesh, origin);
+  });
 }
 
 }  // namespace tetlod

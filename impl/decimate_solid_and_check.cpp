@@ -50,9 +50,9 @@ bool same_topology(const SurfaceTopology &a, const SurfaceTopology &b) {
 }
 
 /// Its surface is closed and crosses itself nowhere, and none of its components lies in another's material.
-bool has_sound_surface(const SurfaceTopology &topology, Job &job, CoarseSolid &coarse) {
+bool has_sound_surface(const SurfaceTopology &topology, std::size_t fields, Job &job, CoarseSolid &coarse) {
   const TetMesh &mesh = coarse.mesh;
-  make_surface({mesh.points, mesh.scalars, mesh.tets}, mesh.boundary, job, coarse.surface);
+  make_surface({mesh.points, mesh.scalars, mesh.tets, fields}, mesh.boundary, job, coarse.surface);
   try {
     find_topology(coarse.surface.points, coarse.surface.triangles, job, coarse.topology);
     if (!same_topology(coarse.topology, topology) || find_crossing(coarse.surface, job).first >= 0) return false;
@@ -73,7 +73,7 @@ bool decimate_solid_and_check(const MeshView &original, const Boundary &boundary
   decimate_solid(original, boundary, surface, options, job, coarse.mesh, coarse.origin);
   if (double(coarse.mesh.tets.size()) > (1 + most_missed) * double(options.tets)) return false;
   if (!all_positive(coarse.mesh, job) || !fills_boundary(coarse.mesh)) return false;
-  if (!has_sound_surface(topology, job, coarse)) return false;
+  if (!has_sound_surface(topology, original.fields, job, coarse)) return false;
   coarse.deviation = largest_deviation(surface, coarse.surface, job);
   return true;
 }

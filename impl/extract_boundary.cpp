@@ -129,6 +129,7 @@ void extract_boundary(const MeshView &mesh, Job &job, Boundary &boundary) {
 
 void make_surface(const MeshView &mesh, Span<const Triangle> triangles, Job &job, Surface &surface) {
   Array<std::int32_t> number(mesh.points.size(), -1, &job.memory);
+  surface.fields = mesh.fields;
   surface.triangles.reserve(triangles.size());
   for (const Triangle &t : triangles) {
     Triangle renumbered;
@@ -137,7 +138,8 @@ void make_surface(const MeshView &mesh, Span<const Triangle> triangles, Job &job
       if (n < 0) {
         n = std::int32_t(surface.points.size());
         surface.points.push_back(mesh.points[std::size_t(t[k])]);
-        surface.scalars.push_back(mesh.scalars[std::size_t(t[k])]);
+        for (std::size_t i = 0; i < mesh.fields; i++)
+          surface.scalars.push_back(mesh.scalars[std::size_t(t[k]) * mesh.fields + i]);
         surface.origin.push_back(t[k]);
       }
       renumbered[k] = n;

@@ -1,126 +1,145 @@
-// 3.2, past the paper: a boundary that sees the field. Cost and placement of an edge collapse by quadrics in
-// (x, y, z, w scalar), after Garland and Zhou, "Quadric-based simplification in any dimension" (2005): the squared
-// distance, in four dimensions, to the planes of the triangles that a vertex stands for, weighted by their areas.
+// 3.2, past the paper: a boundary that sees the fields. Cost and placement of an edge collapse by quadrics in
+// (x, y, z, w scalar, ...), after Garland and Zhou, "Quadric-based simplification in any dimension" (2005): the squared
+// distance, in so many dimensions, to the planes of the triangles that a vertex stands for, weighted by their areas.
 #pragma once
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "cholesky.hpp"
 #include "lindstrom_turk.hpp"
-#include "solver4.hpp"
 
 namespace tetlod {
 
-/// x^T a x + 2 b . x + c, of which the lower triangle of a is kept, row by row.
+/// x^T a x + 2 b . x + c.
+template <std::size_t n>
 struct FieldQuadric {
-  std::array<double, 10> a{};
-  Vec4 b{};
+  Triangular<n> a{};
+  Vector<n> b{};
   double c = 0;
 
   void add(const FieldQuadric &o) {
-    for (std::size_t i = 0; i < 10; i++) a[i] += o.a[i];
-    for (std::size_t i = 0; i < 4; i++) b[i] += o.b[i];
+    for (std::size_t i = 0; i < a.size(); i++) a[i] += o.a[i];
+    for (std::size_t i = 0; i < n; i++) b[i] += o.b[i];
     c += o.c;
   }
-  Vec4 times(const Vec4 &x) const {
-    return {
-        a[0] * x[0] + a[1] * x[1] + a[3] * x[2] + a[6] * x[3], a[1] * x[0] + a[2] * x[1] + a[4] * x[2] + a[7] * x[3],
-        a[3] * x[0] + a[4] * x[1] + a[5] * x[2] + a[8] * x[3], a[6] * x[0] + a[7] * x[1] + a[8] * x[2] + a[9] * x[3]};
+  Vector<n> times(const Vector<n> &x) const {
+    Vector<n> image;
+    for (std::size_t i = 0; i < n; i++) {
+      image[i] = a[entry_of(i, 0)] * x[0];
+      for (std::size_t j = 1; j < n; j++) image[i] += a[i < j ? entry_of(j, i) : entry_of(i, j)] * x[j];
+    }
+    return image;
   }
-  double operator()(const Vec4 &x) const { return dot4(x, times(x)) + 2 * dot4(b, x) + c; }
+  double operator()(const Vector<n> &x) const { return dot(x, times(x)) + 2 * dot(b, x) + c; }
 };
 
 /// Area times the squared distance to the plane through p, q, r; nothing for a triangle without area.
-inline FieldQuadric quadric_of(const Vec4 &p, const Vec4 &q, const Vec4 &r) {
-  Vec4 e, f;
-  for (std::size_t k = 0; k < 4; k++) {
+template <std::size_t n>
+FieldQuadric<n> quadric_of(const Vector<n> &p, const Vector<n> &q, const Vector<n> &r) {
+  Vector<n> e, f;
+  for (std::size_t k = 0; k < n; k++) {
     e[k] = q[k] - p[k];
     f[k] = r[k] - p[k];
   }
-  FieldQuadric quadric;
-  const double e2 = dot4(e, e);
+  FieldQuadric<n> quadric;
+  const double e2 = dot(e, e);
   if (!(e2 > 0)) return quadric;
   for (double &x : e) x /= std::sqrt(e2);
-  const double along = dot4(e, f);
-  for (std::size_t k = 0; k < 4; k++) f[k] -= along * e[k];
-  const double f2 = dot4(f, f);
+  const double along = dot(e, f);
+  for (std::size_t k = 0; k < n; k++) f[k] -= along * e[k];
+  const double f2 = dot(f, f);
   if (!(f2 > 0)) return quadric;
   for (double &x : f) x /= std::sqrt(f2);
   const double area = 0.5 * std::sqrt(e2 * f2);
   std::size_t entry = 0;
-  for (std::size_t i = 0; i < 4; i++)
+  for (std::size_t i = 0; i < n; i++)
     for (std::size_t j = 0; j <= i; j++) quadric.a[entry++] = area * ((i == j) - e[i] * e[j] - f[i] * f[j]);
-  const Vec4 image = quadric.times(p);
-  for (std::size_t k = 0; k < 4; k++) quadric.b[k] = -image[k];
-  quadric.c = dot4(p, image);
+  const Vector<n> image = quadric.times(p);
+  for (std::size_t k = 0; k < n; k++) quadric.b[k] = -image[k];
+  quadric.c = dot(p, image);
   return quadric;
 }
 
 /// Where the quadric and a small pull to the edge's middle have their least, on the plane that keeps the volume
 /// [Lindstrom and Turk] where there is one. x is the edge's middle before. False when
 /// rounding leaves no answer.
-inline bool place_by_quadric(const FieldQuadric &quadric, const VolumeSums &volume, Vec4 &x) {
+template <std::size_t n>
+bool place_by_quadric(const FieldQuadric<n> &quadric, const VolumeSums &volume, Vector<n> &x) {
   constexpr double pull = 1e-3;
-  std::array<double, 10> a = quadric.a;
-  const double weight = pull * (a[0] + a[2] + a[5] + a[9]) / 4;
-  for (std::size_t i : {0, 2, 5, 9}) a[i] += weight;
-  const Solver4 solver(a, 1e-12 * (a[0] + a[2] + a[5] + a[9]));
+  Triangular<n> a = quadric.a;
+  const double weight = pull * trace<n>(a) / double(n);
+  for (std::size_t i = 0; i < n; i++) a[entry_of(i, i)] += weight;
+  const Cholesky<n> solver(a, 1e-12 * trace<n>(a));
   if (!solver.regular()) return false;
-  const Vec4 middle = x;
+  const Vector<n> middle = x;
   // From the middle on: what cancels there costs no digits.
-  const Vec4 image = quadric.times(middle);
-  Vec4 down;
-  for (std::size_t k = 0; k < 4; k++) down[k] = -quadric.b[k] - image[k];
-  Vec4 step = solver.solve(down);
+  const Vector<n> image = quadric.times(middle);
+  Vector<n> down;
+  for (std::size_t k = 0; k < n; k++) down[k] = -quadric.b[k] - image[k];
+  Vector<n> step = solver.solve(down);
   if (volume_is_constrained(volume)) {
-    const Vec4 normal{volume.normal.x, volume.normal.y, volume.normal.z, 0};
-    const Vec4 across = solver.solve(normal);
-    const double lack = volume.offset - dot4(normal, middle) - dot4(normal, step);
-    for (std::size_t k = 0; k < 4; k++) step[k] += across[k] * (lack / dot4(normal, across));
+    const Vector<n> normal{volume.normal.x, volume.normal.y, volume.normal.z};
+    const Vector<n> across = solver.solve(normal);
+    const double lack = volume.offset - dot(normal, middle) - dot(normal, step);
+    for (std::size_t k = 0; k < n; k++) step[k] += across[k] * (lack / dot(normal, across));
   }
-  for (std::size_t k = 0; k < 4; k++) x[k] = middle[k] + step[k];
-  return std::isfinite(x[0] + x[1] + x[2] + x[3]);
+  double sum = 0;
+  for (std::size_t k = 0; k < n; k++) sum += x[k] = middle[k] + step[k];
+  return std::isfinite(sum);
 }
 
 /// What the cost of shape counts beside a quadric's: it decides where that is nothing, on plane walls with a linear
 /// field.
-inline double collapse_cost(const FieldQuadric &quadric, const Vec4 &x, const LinkSums &link, double length2_e) {
+template <std::size_t n>
+double collapse_cost(const FieldQuadric<n> &quadric, const Vector<n> &x, const LinkSums &link, double length2_e) {
   constexpr double shape_share = 1e-5;
   return std::max(quadric(x), 0.0) + shape_share * collapse_cost(link, {x[0], x[1], x[2]}, length2_e);
 }
 
-/// The quadrics of the vertices of a surface, and the weight of its values.
+/// The quadrics of the vertices of a surface, and the weights of its values.
+template <std::size_t m>
 class FieldQuadrics {
  public:
   explicit FieldQuadrics(Memory &memory) : quadric_(&memory) {}
 
-  void find(double weight, Span<const Triangle> triangles, Span<const Vec3> points, Span<const double> values) {
+  using Point = Vector<3 + m>;
+
+  void find(const std::array<double, most_fields> &weight, Span<const Triangle> triangles, Span<const Vec3> points,
+            Span<const Values<m>> values) {
     weight_ = weight;
     quadric_.resize(points.size());
-    const auto corner = [&](std::int32_t v) { return with_value(points[std::size_t(v)], values[std::size_t(v)]); };
+    const auto corner = [&](std::int32_t v) { return with_values(points[std::size_t(v)], values[std::size_t(v)]); };
     for (const Triangle &t : triangles) {
-      const FieldQuadric q = quadric_of(corner(t[0]), corner(t[1]), corner(t[2]));
+      const FieldQuadric<3 + m> q = quadric_of(corner(t[0]), corner(t[1]), corner(t[2]));
       for (std::int32_t v : t) quadric_[std::size_t(v)].add(q);
     }
-    const auto [low, high] = std::minmax_element(values.begin(), values.end());
-    low_ = *low;
-    high_ = *high;
+    for (const Values<m> &of_vertex : values) range_.add(of_vertex);
   }
   bool empty() const { return quadric_.empty(); }
 
-  Vec4 with_value(const Vec3 &p, double value) const { return {p.x, p.y, p.z, weight_ * value}; }
-  double value_of(const Vec4 &x) const { return std::clamp(x[3] / weight_, low_, high_); }
+  Point with_values(const Vec3 &p, const Values<m> &values) const {
+    Point x{p.x, p.y, p.z};
+    for (std::size_t k = 0; k < m; k++) x[3 + k] = weight_[k] * values[k];
+    return x;
+  }
+  Values<m> values_of(const Point &x) const {
+    Values<m> values;
+    for (std::size_t k = 0; k < m; k++) values[k] = x[3 + k] / weight_[k];
+    return range_.clamp(values);
+  }
 
-  FieldQuadric of_edge(int from, int to) const {
-    FieldQuadric sum = quadric_[std::size_t(from)];
+  FieldQuadric<3 + m> of_edge(int from, int to) const {
+    FieldQuadric<3 + m> sum = quadric_[std::size_t(from)];
     sum.add(quadric_[std::size_t(to)]);
     return sum;
   }
   void merge(int from, int to) { quadric_[std::size_t(to)].add(quadric_[std::size_t(from)]); }
 
  private:
-  double weight_ = 0, low_ = 0, high_ = 0;
-  Array<FieldQuadric> quadric_;
+  std::array<double, most_fields> weight_{};
+  ValueRange<m> range_;
+  Array<FieldQuadric<3 + m>> quadric_;
 };
 
 }  // namespace tetlod

@@ -1,7 +1,5 @@
 #include "fit_values.hpp"
 
-#include <cmath>
-
 namespace tetlod {
 
 namespace {
@@ -11,35 +9,36 @@ constexpr std::size_t block = 256;
 constexpr std::size_t many = 1 << 15;  // tets between two polls of passes that do little with each
 
 /// What the probes of one tet add to the normal equations of its corners.
+template <std::size_t m>
 struct Normal {
-  double w[4][4];
-  double r[4];  ///< weights times residual
-  double low, high;
+  double w[4][4]{};
+  Values<m> r[4]{};  ///< weights times residual
+  ValueRange<m> range;
 };
 
-Normal normal_of(const AdaptiveMesh &mesh, std::int32_t t) {
-  Normal n{};
-  n.low = std::numeric_limits<double>::infinity();
-  n.high = -n.low;
+template <std::size_t m>
+Normal<m> normal_of(const AdaptiveMesh<m> &mesh, std::int32_t t) {
+  Normal<m> n;
   const TetFrame frame = mesh.frame(t);
   mesh.for_probes(t, [&](std::int32_t p) {
-    const Probe &probe = mesh.probes[std::size_t(p)];
+    const Probe<m> &probe = mesh.probes[std::size_t(p)];
     double w[4];
     frame.weights(probe.point, w);
-    const double r = mesh.residual(mesh.tets[std::size_t(t)], w, probe);
+    const Values<m> r = mesh.residual(mesh.tets[std::size_t(t)], w, probe);
     for (int i = 0; i < 4; i++) {
       for (int j = 0; j < 4; j++) n.w[i][j] += w[i] * w[j];
-      n.r[i] += w[i] * r;
+      for (std::size_t k = 0; k < m; k++) n.r[i][k] += w[i] * r[k];
     }
-    n.low = std::min(n.low, probe.value);
-    n.high = std::max(n.high, probe.value);
+    n.range.add(probe.value);
   });
   return n;
 }
 
+/// Of every field apart: they share the matrix, not the steps.
+template <std::size_t m>
 class Fit {
  public:
-  Fit(AdaptiveMesh &mesh, Job &job) : mesh_(mesh), job_(job), normals_(&job.memory), pull_(pull) {
+  Fit(AdaptiveMesh<m> &mesh, Job &job) : mesh_(mesh), job_(job), normals_(&job.memory), pull_(pull) {
     make_room();
     job.parallel.for_blocks(normals_.size(), block, [&](std::size_t begin, std::size_t end) {
       for (std::size_t t = begin; t < end; t++)
@@ -56,32 +55,55 @@ class Fit {
 
   void solve(int steps) {
     const std::size_t count = mesh_.points.size();
-    Array<double> x(count, 0.0, &job_.memory), r(count, 0.0, &job_.memory), p(&job_.memory),
-        image(count, 0.0, &job_.memory);
+    Array<Values<m>> x(count, Values<m>{}, &job_.memory), r(count, Values<m>{}, &job_.memory), p(&job_.memory),
+        image(count, Values<m>{}, &job_.memory);
     for (std::size_t t = 0; t < normals_.size(); t++) {
       poll_at(t);
       if (mesh_.alive(std::int32_t(t)))
-        for (std::size_t k = 0; k < 4; k++) r[std::size_t(mesh_.tets[t][k])] -= normals_[t].r[k];
+        for (std::size_t k = 0; k < 4; k++) subtract(normals_[t].r[k], r[std::size_t(mesh_.tets[t][k])]);
     }
     leave_kept(r);
     p.assign(r.begin(), r.end());
-    double rr = dot(r, r);
-    const double start = rr;
-    for (int step = 0; step < steps && rr > 1e-12 * start; step++) {
+    Values<m> rr = dot(r, r);
+    const Values<m> start = rr;
+    for (int step = 0; step < steps && any_left(rr, start); step++) {
       apply(p, image);
-      const double alpha = rr / dot(p, image);
-      for (std::size_t i = 0; i < count; i++) {
-        x[i] += alpha * p[i];
-        r[i] -= alpha * image[i];
-      }
-      const double next = dot(r, r);
-      for (std::size_t i = 0; i < count; i++) p[i] = r[i] + next / rr * p[i];
+      const Values<m> alpha = quotient(rr, dot(p, image), rr, start);
+      for (std::size_t i = 0; i < count; i++)
+        for (std::size_t k = 0; k < m; k++) {
+          x[i][k] += alpha[k] * p[i][k];
+          r[i][k] -= alpha[k] * image[i][k];
+        }
+      const Values<m> next = dot(r, r);
+      const Values<m> beta = quotient(next, rr, rr, start);
+      for (std::size_t i = 0; i < count; i++)
+        for (std::size_t k = 0; k < m; k++) p[i][k] = r[i][k] + beta[k] * p[i][k];
       rr = next;
     }
     take(x);
   }
 
  private:
+  static bool is_left(double rr, double start) { return rr > 1e-12 * start; }
+  static bool any_left(const Values<m> &rr, const Values<m> &start) {
+    for (std::size_t k = 0; k < m; k++)
+      if (is_left(rr[k], start[k])) return true;
+    return false;
+  }
+
+  /// Of the fields that are not solved; 0 of the others, which stay.
+  static Values<m> quotient(const Values<m> &above, const Values<m> &below, const Values<m> &rr,
+                            const Values<m> &start) {
+    Values<m> quotient{};
+    for (std::size_t k = 0; k < m; k++)
+      if (is_left(rr[k], start[k])) quotient[k] = above[k] / below[k];
+    return quotient;
+  }
+
+  static void subtract(const Values<m> &what, Values<m> &from) {
+    for (std::size_t k = 0; k < m; k++) from[k] -= what[k];
+  }
+
   void poll_at(std::size_t t) const {
     if (t % many == 0) job_.poll(0.5);
   }
@@ -91,66 +113,77 @@ class Fit {
     normals_.reserve(mesh_.tets.size());
     while (normals_.size() < mesh_.tets.size()) {
       poll_at(0);
-      normals_.resize(std::min(normals_.size() + many, mesh_.tets.size()), Normal{});
+      normals_.resize(std::min(normals_.size() + many, mesh_.tets.size()), Normal<m>());
     }
   }
 
-  static double dot(const Array<double> &a, const Array<double> &b) {
-    double sum = 0;
-    for (std::size_t i = 0; i < a.size(); i++) sum += a[i] * b[i];
+  static Values<m> dot(const Array<Values<m>> &a, const Array<Values<m>> &b) {
+    Values<m> sum{};
+    for (std::size_t i = 0; i < a.size(); i++)
+      for (std::size_t k = 0; k < m; k++) sum[k] += a[i][k] * b[i][k];
     return sum;
   }
 
-  void apply(const Array<double> &x, Array<double> &image) const {
-    for (std::size_t i = 0; i < x.size(); i++) image[i] = pull_ * x[i];
+  void apply(const Array<Values<m>> &x, Array<Values<m>> &image) const {
+    for (std::size_t i = 0; i < x.size(); i++)
+      for (std::size_t k = 0; k < m; k++) image[i][k] = pull_ * x[i][k];
     for (std::size_t t = 0; t < normals_.size(); t++) {
       poll_at(t);
       if (!mesh_.alive(std::int32_t(t))) continue;
       const Tet &tet = mesh_.tets[t];
       for (std::size_t i = 0; i < 4; i++) {
-        double sum = 0;
-        for (std::size_t j = 0; j < 4; j++) sum += normals_[t].w[i][j] * x[std::size_t(tet[j])];
-        image[std::size_t(tet[i])] += sum;
+        Values<m> sum{};
+        for (std::size_t j = 0; j < 4; j++)
+          for (std::size_t k = 0; k < m; k++) sum[k] += normals_[t].w[i][j] * x[std::size_t(tet[j])][k];
+        for (std::size_t k = 0; k < m; k++) image[std::size_t(tet[i])][k] += sum[k];
       }
     }
     leave_kept(image);
   }
 
-  void leave_kept(Array<double> &of_vertices) const {
+  void leave_kept(Array<Values<m>> &of_vertices) const {
     for (std::size_t v = 0; v < of_vertices.size(); v++)
-      if (mesh_.kept[v]) of_vertices[v] = 0;
+      if (mesh_.kept[v]) of_vertices[v] = {};
   }
 
   /// Within what was seen around each vertex, itself included.
-  void take(const Array<double> &change) {
-    Array<double> low(mesh_.values, &job_.memory), high(mesh_.values, &job_.memory);
+  void take(const Array<Values<m>> &change) {
+    Array<ValueRange<m>> seen(&job_.memory);
+    seen.reserve(change.size());
+    for (const Values<m> &values : mesh_.values) seen.emplace_back(values);
     for (std::size_t t = 0; t < normals_.size(); t++) {
       poll_at(t);
       if (!mesh_.alive(std::int32_t(t))) continue;
-      for (std::int32_t v : mesh_.tets[t]) {
-        low[std::size_t(v)] = std::min(low[std::size_t(v)], normals_[t].low);
-        high[std::size_t(v)] = std::max(high[std::size_t(v)], normals_[t].high);
-      }
+      for (std::int32_t v : mesh_.tets[t]) seen[std::size_t(v)].add(normals_[t].range);
     }
-    for (std::size_t v = 0; v < change.size(); v++)
-      mesh_.values[v] = std::clamp(mesh_.values[v] + change[v], low[v], high[v]);
+    for (std::size_t v = 0; v < change.size(); v++) {
+      Values<m> values = mesh_.values[v];
+      for (std::size_t k = 0; k < m; k++) values[k] += change[v][k];
+      mesh_.values[v] = seen[v].clamp(values);
+    }
   }
 
-  AdaptiveMesh &mesh_;
+  AdaptiveMesh<m> &mesh_;
   Job &job_;
-  Array<Normal> normals_;
+  Array<Normal<m>> normals_;
   double pull_;
 };
 
 }  // namespace
 
-void fit_values(int steps, Job &job, AdaptiveMesh &mesh) {
-  Fit(mesh, job).solve(steps);
+template <std::size_t m>
+void fit_values(int steps, Job &job, AdaptiveMesh<m> &mesh) {
+  Fit<m>(mesh, job).solve(steps);
   job.parallel.for_blocks(mesh.tets.size(), block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; t++)
       if (mesh.alive(std::int32_t(t))) mesh.measure(std::int32_t(t));
     job.poll(0.5);
   });
 }
+
+template void fit_values(int, Job &, AdaptiveMesh<1> &);
+template void fit_values(int, Job &, AdaptiveMesh<2> &);
+template void fit_values(int, Job &, AdaptiveMesh<3> &);
+template void fit_values(int, Job &, AdaptiveMesh<4> &);
 
 }  // namespace tetlod

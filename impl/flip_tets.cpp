@@ -16,9 +16,10 @@ struct Flip {
 };
 
 /// Looks for the flips that pay; of the mesh as it is.
+template <std::size_t m>
 class FlipFinder {
  public:
-  FlipFinder(double price, const AdaptiveMesh &mesh) : price_(price), mesh_(mesh) {}
+  FlipFinder(double price, const AdaptiveMesh<m> &mesh) : price_(price), mesh_(mesh) {}
 
   /// The first kind of flip around t that pays, in its best form.
   bool find(std::int32_t t, Flip &flip) const {
@@ -99,12 +100,13 @@ class FlipFinder {
   }
 
   double price_;
-  const AdaptiveMesh &mesh_;
+  const AdaptiveMesh<m> &mesh_;
 };
 
 }  // namespace
 
-std::int64_t flip_tets(double price, Job &job, AdaptiveMesh &mesh) {
+template <std::size_t m>
+std::int64_t flip_tets(double price, Job &job, AdaptiveMesh<m> &mesh) {
   const double least = quiet * mesh.total_error() / double(mesh.count());
   Array<std::int32_t> items(&job.memory), made(&job.memory);
   for (std::size_t t = 0; t < mesh.tets.size(); t++)
@@ -115,5 +117,10 @@ std::int64_t flip_tets(double price, Job &job, AdaptiveMesh &mesh) {
       [&](std::int32_t t, Flip &flip) { return finder.find(t, flip); },
       [&](const Flip &flip) { mesh.replace(flip.old, flip.fresh, made); });
 }
+
+template std::int64_t flip_tets(double, Job &, AdaptiveMesh<1> &);
+template std::int64_t flip_tets(double, Job &, AdaptiveMesh<2> &);
+template std::int64_t flip_tets(double, Job &, AdaptiveMesh<3> &);
+template std::int64_t flip_tets(double, Job &, AdaptiveMesh<4> &);
 
 }  // namespace tetlod

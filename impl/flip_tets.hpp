@@ -8,6 +8,7 @@ namespace tetlod {
 /// One sweep of face removals (2-3) and edge removals (3-2, 4-4, 5-6) over the tets that have an error. A flip is taken
 /// when it lowers the sum of squares by more than `price` for every tet that it adds; one that saves a tet may raise it
 /// by as much. Returns how many were taken.
-std::int64_t flip_tets(double price, Job &job, AdaptiveMesh &mesh);
+template <std::size_t m>
+std::int64_t flip_tets(double price, Job &job, AdaptiveMesh<m> &mesh);
 
 }  // namespace tetlod

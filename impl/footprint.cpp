@@ -17,9 +17,11 @@ namespace {
 // Of decimation and of what a result is made from.
 constexpr double bytes_a_triangle = 530, bytes_a_result_point = 360;
 // Of a run with a target: neighbours, frames or normal equations, and room to grow.
-constexpr double bytes_a_refined_tet = 250, bytes_a_refined_point = 70, bytes_a_probe = sizeof(Probe) + 8;
+constexpr double bytes_a_refined_tet = 250, bytes_a_refined_point = 70, bytes_a_probe = sizeof(Probe<1>) + 8;
+// Of these for each field more that steers.
+constexpr double values_a_refined_tet = 6, values_a_refined_point = 7, values_a_solid_point = 8;
 // Of the original while its edges collapse.
-constexpr double bytes_a_solid_tet = 56, bytes_a_solid_point = 330, bytes_of_collapses = 9e5;
+constexpr double bytes_a_solid_tet = 56, bytes_a_solid_point = 354, bytes_of_collapses = 9e5;
 // Of a field: original vertices are held by many tets, the centroids of cells by one.
 constexpr double bytes_a_located_point = 400, bytes_a_located_cell = 190, bytes_a_stencil = 48;
 
@@ -41,28 +43,36 @@ double bytes_of_fields(const Outlook &outlook, const Input &input) {
 }
 
 /// Largest distance of the values of some vertices from the linear function that fits them best.
-double off_linear(const MeshView &mesh, Span<const std::int32_t> vertices) {
+double off_linear(const MeshView &mesh, std::size_t field, Span<const std::int32_t> vertices) {
+  const auto value_of = [&](std::int32_t v) { return mesh.scalars[std::size_t(v) * mesh.fields + field]; };
   const auto n = double(vertices.size());
   Vec3 mean(0);
   double value = 0;
   for (std::int32_t v : vertices) {
     mean += mesh.points[std::size_t(v)] / n;
-    value += mesh.scalars[std::size_t(v)] / n;
+    value += value_of(v) / n;
   }
   glm::dmat3 square(0);
   Vec3 right(0);
   for (std::int32_t v : vertices) {
     const Vec3 d = mesh.points[std::size_t(v)] - mean;
     square += glm::outerProduct(d, d);
-    right += (mesh.scalars[std::size_t(v)] - value) * d;
+    right += (value_of(v) - value) * d;
   }
   const double damping = 1e-6 * (square[0][0] + square[1][1] + square[2][2]);
   for (int k = 0; k < 3; k++) square[k][k] += damping;
   const Vec3 gradient = glm::inverse(square) * right;
   double worst = 0;
   for (std::int32_t v : vertices)
-    worst = std::max(
-        worst, std::abs(mesh.scalars[std::size_t(v)] - value - glm::dot(gradient, mesh.points[std::size_t(v)] - mean)));
+    worst = std::max(worst, std::abs(value_of(v) - value - glm::dot(gradient, mesh.points[std::size_t(v)] - mean)));
+  return worst;
+}
+
+/// The same of all fields, as if all ranges were the first's.
+double off_linear(const MeshView &mesh, Span<const std::int32_t> vertices) {
+  double worst = 0;
+  for (std::size_t k = 0; k < mesh.fields; k++)
+    worst = std::max(worst, mesh.scales.relative[k] * off_linear(mesh, k, vertices));
   return worst;
 }
 
@@ -93,13 +103,17 @@ std::size_t count_linear_parts(const MeshView &mesh, Span<std::int32_t> vertices
 }  // namespace
 
 double expected_bytes(const Outlook &outlook, const Input &input) {
-  const double refining =
-      outlook.probes > 0
-          ? bytes_a_refined_tet * outlook.tets + bytes_a_refined_point * outlook.points + bytes_a_probe * outlook.probes
-          : 0;
-  const double collapsing = outlook.solid_tets > 0 ? bytes_a_solid_tet * outlook.solid_tets +
-                                                         bytes_a_solid_point * outlook.solid_points + bytes_of_collapses
-                                                   : 0;
+  const double more = sizeof(double) * (outlook.fields - 1);
+  const double refining = outlook.probes > 0
+                              ? (bytes_a_refined_tet + values_a_refined_tet * more) * outlook.tets +
+                                    (bytes_a_refined_point + values_a_refined_point * more) * outlook.points +
+                                    (bytes_a_probe + more) * outlook.probes
+                              : 0;
+  const double collapsing = outlook.solid_tets > 0
+                                ? bytes_a_solid_tet * outlook.solid_tets +
+                                      (bytes_a_solid_point + values_a_solid_point * more) * outlook.solid_points +
+                                      bytes_of_collapses
+                                : 0;
   return std::max({bytes_a_triangle * outlook.boundary_triangles, collapsing, bytes_a_result_point * outlook.points,
                    refining, input.fields.empty() ? 0 : bytes_of_fields(outlook, input)});
 }

@@ -43,6 +43,15 @@ inline double value_along_edge(const Vec3 &x, const Vec3 &from, const Vec3 &to, 
   return std::clamp((1 - t) * value_from + t * value_to, low, high);
 }
 
+/// The same of each field.
+template <std::size_t m>
+Values<m> values_along_edge(const Vec3 &x, const Vec3 &from, const Vec3 &to, const Values<m> &values_from,
+                            const Values<m> &values_to) {
+  Values<m> values;
+  for (std::size_t k = 0; k < m; k++) values[k] = value_along_edge(x, from, to, values_from[k], values_to[k]);
+  return values;
+}
+
 /// What a triangle adds to the winding number of p: its solid angle (Van Oosterom and Strackee 1983) over 4 pi,
 /// positive from its inner side.
 inline double winding_share(const Vec3 &p, const Vec3 &x, const Vec3 &y, const Vec3 &z) {

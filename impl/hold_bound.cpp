@@ -22,13 +22,18 @@ constexpr double flattest = 1e-9;
 /// Sweeps that also flip; the sweeps after them insert alone, which ends.
 constexpr int flipping_sweeps = 3;
 
-double error_at(const AdaptiveMesh &mesh, const TetFrame &frame, std::int32_t t, std::int32_t p) {
+template <std::size_t m>
+double error_at(const AdaptiveMesh<m> &mesh, const TetFrame &frame, std::int32_t t, std::int32_t p) {
   double w[4];
   frame.weights(mesh.probes[std::size_t(p)].point, w);
-  return std::abs(mesh.residual(mesh.tets[std::size_t(t)], w, mesh.probes[std::size_t(p)]));
+  const Values<m> r = mesh.residual(mesh.tets[std::size_t(t)], w, mesh.probes[std::size_t(p)]);
+  double largest = std::abs(r[0]);
+  for (std::size_t k = 1; k < m; k++) largest = std::max(largest, mesh.scales.relative[k] * std::abs(r[k]));
+  return largest;
 }
 
-LargestError largest_in(const AdaptiveMesh &mesh, std::int32_t t) {
+template <std::size_t m>
+LargestError largest_in(const AdaptiveMesh<m> &mesh, std::int32_t t) {
   LargestError largest;
   const TetFrame frame = mesh.frame(t);
   mesh.for_probes(t, [&](std::int32_t p) {
@@ -40,16 +45,17 @@ LargestError largest_in(const AdaptiveMesh &mesh, std::int32_t t) {
 }
 
 /// The corner of t that p is, but for `tolerance` in weight; -1 when it is none.
-std::int32_t corner_at(const AdaptiveMesh &mesh, std::int32_t t, const Vec3 &p, double tolerance) {
+std::int32_t corner_at(const TetComplex &mesh, std::int32_t t, const Vec3 &p, double tolerance) {
   double w[4];
   mesh.frame(t).weights(p, w);
   const auto most = std::size_t(std::max_element(w, w + 4) - w);
   return w[most] > 1 - tolerance ? mesh.tets[std::size_t(t)][most] : -1;
 }
 
+template <std::size_t m>
 class Bound {
  public:
-  Bound(double bound, Job &job, AdaptiveMesh &mesh) : bound_((1 - margin) * bound), job_(job), mesh_(mesh) {}
+  Bound(double bound, Job &job, AdaptiveMesh<m> &mesh) : bound_((1 - margin) * bound), job_(job), mesh_(mesh) {}
 
   std::int64_t hold() {
     for (int sweep = 0;; sweep++) {
@@ -77,23 +83,23 @@ class Bound {
     return done;
   }
 
-  bool serve(std::int32_t t, const Probe probe) {
+  bool serve(std::int32_t t, const Probe<m> probe) {
     if (const std::int32_t corner = corner_at(mesh_, t, probe.point, at_corner); corner >= 0)
-      return give_value(corner, probe.value);
+      return give_values(corner, probe.value);
     for (double snap : snaps)
       if (insert_vertex(t, probe.point, probe.value, snap, flattest, mesh_)) {
         mesh_.kept.back() = 1;
         return true;
       }
     const std::int32_t corner = corner_at(mesh_, t, probe.point, near_corner);
-    return corner >= 0 && give_value(corner, probe.value);
+    return corner >= 0 && give_values(corner, probe.value);
   }
 
-  /// The original's there. Once a vertex has been given its value it is not given another.
-  bool give_value(std::int32_t v, double value) {
+  /// The original's there. Once a vertex has been given its values it is not given others.
+  bool give_values(std::int32_t v, const Values<m> &values) {
     if (mesh_.kept[std::size_t(v)]) return false;
     mesh_.kept[std::size_t(v)] = 1;
-    mesh_.values[std::size_t(v)] = value;
+    mesh_.values[std::size_t(v)] = values;
     Array<std::int32_t> around(&job_.memory);
     mesh_.star(v, around);
     for (std::int32_t t : around) mesh_.measure(t);
@@ -102,13 +108,14 @@ class Bound {
 
   double bound_;
   Job &job_;
-  AdaptiveMesh &mesh_;
+  AdaptiveMesh<m> &mesh_;
   std::int64_t left_ = 0;
 };
 
 }  // namespace
 
-LargestError largest_error(const AdaptiveMesh &mesh, Job &job) {
+template <std::size_t m>
+LargestError largest_error(const AdaptiveMesh<m> &mesh, Job &job) {
   LargestError largest;
   for (std::size_t t = 0; t < mesh.tets.size(); t++) {
     if (t % 4096 == 0) job.poll(0.9);
@@ -119,6 +126,18 @@ LargestError largest_error(const AdaptiveMesh &mesh, Job &job) {
   return largest;
 }
 
-std::int64_t hold_bound(double bound, Job &job, AdaptiveMesh &mesh) { return Bound(bound, job, mesh).hold(); }
+template <std::size_t m>
+std::int64_t hold_bound(double bound, Job &job, AdaptiveMesh<m> &mesh) {
+  return Bound<m>(bound, job, mesh).hold();
+}
+
+template LargestError largest_error(const AdaptiveMesh<1> &, Job &);
+template LargestError largest_error(const AdaptiveMesh<2> &, Job &);
+template LargestError largest_error(const AdaptiveMesh<3> &, Job &);
+template LargestError largest_error(const AdaptiveMesh<4> &, Job &);
+template std::int64_t hold_bound(double, Job &, AdaptiveMesh<1> &);
+template std::int64_t hold_bound(double, Job &, AdaptiveMesh<2> &);
+template std::int64_t hold_bound(double, Job &, AdaptiveMesh<3> &);
+template std::int64_t hold_bound(double, Job &, AdaptiveMesh<4> &);
 
 }  // namespace tetlod

@@ -1,4 +1,4 @@
-// A bound that holds: nowhere, at the original's vertices, is the field off by more.
+// A bound that holds: nowhere, at the original's vertices, is a field off by more.
 #pragma once
 #include "adaptive_mesh.hpp"
 #include "job.hpp"
@@ -10,12 +10,15 @@ struct LargestError {
   std::int64_t probe = -1;
 };
 
-/// At the probes of original vertices that lie in a tet.
-LargestError largest_error(const AdaptiveMesh &mesh, Job &job);
+/// At the probes of original vertices that lie in a tet, of any field: as if all ranges were the first's.
+template <std::size_t m>
+LargestError largest_error(const AdaptiveMesh<m> &mesh, Job &job);
 
-/// Makes original vertices, with their values, vertices of the mesh where it is off by more than `bound`, the worst of
-/// each tet first, until there is none; those on the boundary divide its faces. Returns how many are left where that
-/// could not be done: two of them at one point of the boundary, or a tet would be too flat.
-std::int64_t hold_bound(double bound, Job &job, AdaptiveMesh &mesh);
+/// Makes original vertices, with their values, vertices of the mesh where a field is off by more than `bound`,
+/// relative to its range as largest_error(), the worst of each tet first, until there is none; those on the boundary
+/// divide its faces. Returns how many are left where that could not be done: two of them at one point of the boundary,
+/// or a tet would be too flat.
+template <std::size_t m>
+std::int64_t hold_bound(double bound, Job &job, AdaptiveMesh<m> &mesh);
 
 }  // namespace tetlod

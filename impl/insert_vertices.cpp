@@ -9,67 +9,74 @@ namespace {
 /// A vertex nearer than this to a face of the boundary, in weights, goes onto it; to another face, stays off by it.
 constexpr double near_face = 0.12;
 
-Vec3 centre_of_residuals(const AdaptiveMesh &mesh, std::int32_t t) {
+template <std::size_t m>
+Vec3 centre_of_residuals(const AdaptiveMesh<m> &mesh, std::int32_t t) {
   const TetFrame frame = mesh.frame(t);
   Vec3 sum(0);
   double total = 0;
   mesh.for_probes(t, [&](std::int32_t p) {
-    const Probe &probe = mesh.probes[std::size_t(p)];
+    const Probe<m> &probe = mesh.probes[std::size_t(p)];
     double w[4];
     frame.weights(probe.point, w);
-    const double r = mesh.residual(mesh.tets[std::size_t(t)], w, probe);
-    sum += r * r * probe.point;
-    total += r * r;
+    const double square = mesh.square(mesh.residual(mesh.tets[std::size_t(t)], w, probe));
+    sum += square * probe.point;
+    total += square;
   });
   return sum / total;
 }
 
-double linear_value(const AdaptiveMesh &mesh, std::int32_t t, const Vec3 &p) {
-  double w[4], value = 0;
+template <std::size_t m>
+Values<m> linear_values(const AdaptiveMesh<m> &mesh, std::int32_t t, const Vec3 &p) {
+  double w[4];
   mesh.frame(t).weights(p, w);
-  for (int k = 0; k < 4; k++) value += w[k] * mesh.value(t, k);
-  return value;
+  Values<m> values{};
+  for (int k = 0; k < 4; k++)
+    for (std::size_t i = 0; i < m; i++) values[i] += w[k] * mesh.value(t, k)[i];
+  return values;
 }
 
-/// What `value` at p becomes at another place in t, not beyond what there is.
-double carried_along(const AdaptiveMesh &mesh, std::int32_t t, const Vec3 &p, double value, const Vec3 &place) {
-  double low = value, high = value;
-  for (int k = 0; k < 4; k++) {
-    low = std::min(low, mesh.value(t, k));
-    high = std::max(high, mesh.value(t, k));
-  }
-  return std::clamp(value + linear_value(mesh, t, place) - linear_value(mesh, t, p), low, high);
+/// What `values` at p become at another place in t, not beyond what there is.
+template <std::size_t m>
+Values<m> carried_along(const AdaptiveMesh<m> &mesh, std::int32_t t, const Vec3 &p, Values<m> values,
+                        const Vec3 &place) {
+  ValueRange<m> range(values);
+  for (int k = 0; k < 4; k++) range.add(mesh.value(t, k));
+  const Values<m> from = linear_values(mesh, t, p), to = linear_values(mesh, t, place);
+  for (std::size_t i = 0; i < m; i++) values[i] += to[i] - from[i];
+  return range.clamp(values);
 }
 
-/// The value at p in t by least squares over its probes, where the hat function of the vertex to be is least weight.
-double value_at(const AdaptiveMesh &mesh, std::int32_t t, const Vec3 &p) {
+/// The values at p in t by least squares over its probes, where the hat function of the vertex to be is least weight.
+template <std::size_t m>
+Values<m> values_at(const AdaptiveMesh<m> &mesh, std::int32_t t, const Vec3 &p) {
   const TetFrame frame = mesh.frame(t);
-  const double value = linear_value(mesh, t, p);
-  double at_p[4], above = 0, below = 0;
+  Values<m> values = linear_values(mesh, t, p);
+  double at_p[4], below = 0;
   frame.weights(p, at_p);
-  double low = mesh.value(t, 0), high = low;
-  for (int k = 0; k < 4; k++) {
-    low = std::min(low, mesh.value(t, k));
-    high = std::max(high, mesh.value(t, k));
-  }
-  mesh.for_probes(t, [&](std::int32_t i) {
-    const Probe &probe = mesh.probes[std::size_t(i)];
+  Values<m> above{};
+  ValueRange<m> range(mesh.value(t, 0));
+  for (int k = 0; k < 4; k++) range.add(mesh.value(t, k));
+  mesh.for_probes(t, [&](std::int32_t number) {
+    const Probe<m> &probe = mesh.probes[std::size_t(number)];
     double w[4], hat = 1;
     frame.weights(probe.point, w);
     for (int k = 0; k < 4; k++)
       if (at_p[k] > 1e-9) hat = std::min(hat, w[k] / at_p[k]);
     hat = std::max(hat, 0.0);
-    above -= hat * mesh.residual(mesh.tets[std::size_t(t)], w, probe);
+    const Values<m> r = mesh.residual(mesh.tets[std::size_t(t)], w, probe);
+    for (std::size_t i = 0; i < m; i++) above[i] -= hat * r[i];
     below += hat * hat;
-    low = std::min(low, probe.value);
-    high = std::max(high, probe.value);
+    range.add(probe.value);
   });
-  return std::clamp(below > 0 ? value + above / below : value, low, high);
+  for (std::size_t i = 0; i < m && below > 0; i++) values[i] += above[i] / below;
+  return range.clamp(values);
 }
 
 }  // namespace
 
-bool insert_vertex(std::int32_t t, const Vec3 &p, double value, double snap, double least, AdaptiveMesh &mesh) {
+template <std::size_t m>
+bool insert_vertex(std::int32_t t, const Vec3 &p, const Values<m> &values, double snap, double least,
+                   AdaptiveMesh<m> &mesh) {
   const Tet tet = mesh.tets[std::size_t(t)];
   double w[4], total = 0;
   mesh.frame(t).weights(p, w);
@@ -113,7 +120,7 @@ bool insert_vertex(std::int32_t t, const Vec3 &p, double value, double snap, dou
       mesh.points.pop_back();
       return false;
     }
-  mesh.values.push_back(carried_along(mesh, t, p, value, place));
+  mesh.values.push_back(carried_along(mesh, t, p, values, place));
   mesh.fixed.push_back(on_boundary);
   mesh.kept.push_back(0);
   mesh.tet_of.push_back(-1);
@@ -121,7 +128,8 @@ bool insert_vertex(std::int32_t t, const Vec3 &p, double value, double snap, dou
   return true;
 }
 
-std::int64_t insert_vertices(std::int64_t tets, Job &job, AdaptiveMesh &mesh) {
+template <std::size_t m>
+std::int64_t insert_vertices(std::int64_t tets, Job &job, AdaptiveMesh<m> &mesh) {
   Array<std::int32_t> worst(&job.memory);
   for (std::size_t t = 0; t < mesh.tets.size(); t++)
     if (mesh.alive(std::int32_t(t)) && mesh.error[t] > 0) worst.push_back(std::int32_t(t));
@@ -145,9 +153,18 @@ std::int64_t insert_vertices(std::int64_t tets, Job &job, AdaptiveMesh &mesh) {
       const Vec3 middle = 0.25 * (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2) + mesh.corner(t, 3));
       p += (near_face - least) / (0.25 - least) * (middle - p);
     }
-    inserted += insert_vertex(t, p, value_at(mesh, t, p), to_boundary ? near_face : 0, least_shape, mesh);
+    inserted += insert_vertex(t, p, values_at(mesh, t, p), to_boundary ? near_face : 0, least_shape, mesh);
   }
   return inserted;
 }
+
+template std::int64_t insert_vertices(std::int64_t, Job &, AdaptiveMesh<1> &);
+template std::int64_t insert_vertices(std::int64_t, Job &, AdaptiveMesh<2> &);
+template std::int64_t insert_vertices(std::int64_t, Job &, AdaptiveMesh<3> &);
+template std::int64_t insert_vertices(std::int64_t, Job &, AdaptiveMesh<4> &);
+template bool insert_vertex(std::int32_t, const Vec3 &, const Values<1> &, double, double, AdaptiveMesh<1> &);
+template bool insert_vertex(std::int32_t, const Vec3 &, const Values<2> &, double, double, AdaptiveMesh<2> &);
+template bool insert_vertex(std::int32_t, const Vec3 &, const Values<3> &, double, double, AdaptiveMesh<3> &);
+template bool insert_vertex(std::int32_t, const Vec3 &, const Values<4> &, double, double, AdaptiveMesh<4> &);
 
 }  // namespace tetlod

@@ -10,9 +10,10 @@ void interpolate(const MeshView &mesh, Span<const Triangle> boundary, Span<const
                  Job &job, Array<double> &values) {
   Stencil stencil(job.memory);
   find_stencils(mesh, boundary, points, leaf, job, stencil);
-  values.resize(points.size());
-  transfer(stencil, packed_reals(mesh.scalars.data(), mesh.scalars.size(), 1),
-           packed_reals(values.data(), values.size(), 1), job);
+  const auto fields = int(mesh.fields);
+  values.resize(points.size() * mesh.fields);
+  transfer(stencil, packed_reals(mesh.scalars.data(), mesh.points.size(), fields),
+           packed_reals(values.data(), points.size(), fields), job);
 }
 
 }  // namespace tetlod

@@ -7,9 +7,9 @@
 
 namespace tetlod {
 
-/// values[i]: the field of `mesh` at points[i], linear in the tet that holds the point. A point outside of every tet
-/// takes the value at the nearest point of the boundary, so that all values are within the field's range.
-/// At most `leaf` tets go down the tree of the points together.
+/// values: of each of `points` those of the fields of `mesh`, linear in the tet that holds the point. A point outside
+/// of every tet takes the values at the nearest point of the boundary, so that all values are within their field's
+/// range. At most `leaf` tets go down the tree of the points together.
 void interpolate(const MeshView &mesh, Span<const Triangle> boundary, Span<const Vec3> points, std::int64_t leaf,
                  Job &job, Array<double> &values);
 

@@ -1,46 +1,58 @@
-// The quadric of a vertex in (x, y, z, w scalar), kept about the vertex itself, where nothing cancels. A tet stands for
-// the squared difference between a value and its own linear function, continued to the place; a boundary triangle for
-// the squared distance from its plane [Garland and Zhou 2005, with the scalar's error upright].
+// The quadric of a vertex in space and the values of the fields that steer, kept about the vertex itself, where nothing
+// cancels. A tet stands for the squared differences between values and its own linear functions, continued to the
+// place; a boundary triangle for the squared distance from its plane [Garland and Zhou 2005, with errors upright].
 #pragma once
+#include "cholesky.hpp"
 #include "geometry.hpp"
-#include "solver4.hpp"
 
 namespace tetlod {
 
-inline Vec4 minus(const Vec4 &a, const Vec4 &b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2], a[3] - b[3]}; }
 /// a + t d.
-inline Vec4 along(const Vec4 &a, double t, const Vec4 &d) {
-  return {a[0] + t * d[0], a[1] + t * d[1], a[2] + t * d[2], a[3] + t * d[3]};
+template <std::size_t n>
+Vector<n> along(Vector<n> a, double t, const Vector<n> &d) {
+  for (std::size_t i = 0; i < n; i++) a[i] += t * d[i];
+  return a;
 }
 
-/// d^T a d + 2 g . d + e at the distance d from where it is kept. Of a the lower triangle, row by row.
+template <std::size_t n>
+Vector<n> minus(const Vector<n> &a, const Vector<n> &b) {
+  return along(a, -1, b);
+}
+
+template <std::size_t n>
+Vec3 point_of(const Vector<n> &place) {
+  return {place[0], place[1], place[2]};
+}
+
+/// d^T a d + 2 g . d + e at the distance d from where it is kept.
+template <std::size_t n>
 struct LocalQuadric {
-  std::array<double, 10> a{};
-  Vec4 g{};
+  Triangular<n> a{};
+  Vector<n> g{};
   double e = 0;
 
-  Vec4 times(const Vec4 &d) const {
-    return {
-        a[0] * d[0] + a[1] * d[1] + a[3] * d[2] + a[6] * d[3], a[1] * d[0] + a[2] * d[1] + a[4] * d[2] + a[7] * d[3],
-        a[3] * d[0] + a[4] * d[1] + a[5] * d[2] + a[8] * d[3], a[6] * d[0] + a[7] * d[1] + a[8] * d[2] + a[9] * d[3]};
+  Vector<n> times(const Vector<n> &d) const {
+    Vector<n> image{};
+    for (std::size_t i = 0; i < n; i++)
+      for (std::size_t j = 0; j < n; j++) image[i] += (i < j ? a[entry_of(j, i)] : a[entry_of(i, j)]) * d[j];
+    return image;
   }
   /// weight times (normal . d)^2.
-  void add_square(const Vec4 &normal, double weight) {
-    std::size_t entry = 0;
-    for (std::size_t i = 0; i < 4; i++)
-      for (std::size_t j = 0; j <= i; j++) a[entry++] += weight * normal[i] * normal[j];
+  void add_square(const Vector<n> &normal, double weight) {
+    for (std::size_t i = 0; i < n; i++)
+      for (std::size_t j = 0; j <= i; j++) a[entry_of(i, j)] += weight * normal[i] * normal[j];
   }
   /// The same function, kept at the distance d.
-  LocalQuadric moved(const Vec4 &d) const {
+  LocalQuadric moved(const Vector<n> &d) const {
     LocalQuadric q = *this;
-    const Vec4 image = times(d);
-    q.e = e + 2 * dot4(g, d) + dot4(d, image);
-    for (std::size_t k = 0; k < 4; k++) q.g[k] = g[k] + image[k];
+    const Vector<n> image = times(d);
+    q.e = e + 2 * dot<n>(g, d) + dot<n>(d, image);
+    q.g = along(g, 1, image);
     return q;
   }
   void add(const LocalQuadric &o) {
-    for (std::size_t i = 0; i < 10; i++) a[i] += o.a[i];
-    for (std::size_t i = 0; i < 4; i++) g[i] += o.g[i];
+    for (std::size_t i = 0; i < a.size(); i++) a[i] += o.a[i];
+    g = along(g, 1, o.g);
     e += o.e;
   }
 };
@@ -52,18 +64,19 @@ struct BestOfEdge {
 };
 
 /// d: from the first vertex to the second. first_stays: t is 0.
-inline BestOfEdge best_of_edge(const LocalQuadric &first, const LocalQuadric &second, const Vec4 &d, bool first_stays) {
-  const double x = d[0], y = d[1], z = d[2], s = d[3];
-  const double products[10] = {x * x, 2 * x * y, y * y,     2 * x * z, 2 * y * z,
-                               z * z, 2 * x * s, 2 * y * s, 2 * z * s, s * s};
+template <std::size_t n>
+BestOfEdge best_of_edge(const LocalQuadric<n> &first, const LocalQuadric<n> &second, const Vector<n> &d,
+                        bool first_stays) {
   double first_bend = 0, second_bend = 0;
-  for (std::size_t i = 0; i < 10; i++) {
-    first_bend += products[i] * first.a[i];
-    second_bend += products[i] * second.a[i];
-  }
-  const double at_first = second_bend - 2 * dot4(second.g, d);
+  for (std::size_t i = 0; i < n; i++)
+    for (std::size_t j = 0; j <= i; j++) {
+      const double product = (i == j ? 1 : 2) * d[i] * d[j];
+      first_bend += product * first.a[entry_of(i, j)];
+      second_bend += product * second.a[entry_of(i, j)];
+    }
+  const double at_first = second_bend - 2 * dot<n>(second.g, d);
   if (first_stays) return {0, at_first};
-  const double at_second = first_bend + 2 * dot4(first.g, d);
+  const double at_second = first_bend + 2 * dot<n>(first.g, d);
   const double bend = first_bend + second_bend, slope = at_second - at_first - bend;
   const double t = bend > 0 ? std::clamp(-0.5 * slope / bend, 0.0, 1.0) : 0.5;
   return {t, at_first + t * (slope + t * bend)};
@@ -77,21 +90,23 @@ struct StepConstraint {
 
 /// The step from where q is kept to its least, with a small pull back where it says nothing. False: rounding leaves no
 /// answer.
-inline bool step_to_least(const LocalQuadric &q, const StepConstraint &constraint, Vec4 &step) {
-  constexpr double pull = 1e-3;
-  std::array<double, 10> a = q.a;
-  const double of_place = pull * (a[0] + a[2] + a[5]) / 3;
-  for (std::size_t i : {0, 2, 5}) a[i] += of_place + 1e-9 * a[9];
-  a[9] *= 1 + pull;
-  const Solver4 solver(a, 0);
+template <std::size_t n>
+bool step_to_least(const LocalQuadric<n> &q, const StepConstraint &constraint, Vector<n> &step) {
+  constexpr double pull = 1e-3, least_pull = 1e-9;
+  Triangular<n> a = q.a;
+  double of_place = least_pull * a[entry_of(3, 3)];
+  for (std::size_t i = 0; i < 3; i++) of_place += pull / 3 * a[entry_of(i, i)];
+  for (std::size_t i = 0; i < 3; i++) a[entry_of(i, i)] += of_place;
+  for (std::size_t i = 3; i < n; i++) a[entry_of(i, i)] *= 1 + pull;
+  const Cholesky<n> solver(a, 0);
   if (!solver.regular()) return false;
-  step = solver.solve({-q.g[0], -q.g[1], -q.g[2], -q.g[3]});
+  step = solver.solve(along(Vector<n>{}, -1, q.g));
   if (constraint.normal != Vec3(0)) {
-    const Vec4 normal{constraint.normal.x, constraint.normal.y, constraint.normal.z, 0};
-    const Vec4 across = solver.solve(normal);
-    step = along(step, (constraint.offset - dot4(normal, step)) / dot4(normal, across), across);
+    const Vector<n> normal{constraint.normal.x, constraint.normal.y, constraint.normal.z};
+    const Vector<n> across = solver.solve(normal);
+    step = along(step, (constraint.offset - dot<n>(normal, step)) / dot<n>(normal, across), across);
   }
-  return std::isfinite(step[0] + step[1] + step[2] + step[3]);
+  return std::all_of(step.begin(), step.end(), [](double x) { return std::isfinite(x); });
 }
 
 }  // namespace tetlod

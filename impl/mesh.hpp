@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "memory.hpp"
+#include "values.hpp"
 
 namespace tetlod {
 
@@ -42,8 +43,15 @@ class Span {
 /// The original mesh as the stages read it. Tets may have either winding; a point that no tet uses is allowed.
 struct MeshView {
   Span<const Vec3> points;
-  Span<const double> scalars;  ///< one a point
+  Span<const double> scalars;  ///< of each point, one of each field that steers
   Span<const Tet> tets;
+  std::size_t fields = 1;
+  FieldScales scales{};
+
+  template <std::size_t m>
+  Span<const Values<m>> values() const {
+    return {reinterpret_cast<const Values<m> *>(scalars.data()), scalars.size() / m};
+  }
 };
 
 /// The corners of the face opposite corner k, seen counter-clockwise from outside a tet with
@@ -55,16 +63,17 @@ constexpr int tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 struct Surface {
   explicit Surface(Memory &memory) : points(&memory), scalars(&memory), origin(&memory), triangles(&memory) {}
   Array<Vec3> points;
-  Array<double> scalars;       ///< one a point
+  Array<double> scalars;       ///< of each point, one of each field that steers
   Array<std::int32_t> origin;  ///< the original vertex a point is, or -1 where decimation placed it
   Array<Triangle> triangles;
+  std::size_t fields = 1;
 };
 
 /// A simplified mesh: every tet positive, boundary vertices first, then samples, then Steiner points.
 struct TetMesh {
   explicit TetMesh(Memory &memory) : points(&memory), scalars(&memory), tets(&memory), boundary(&memory) {}
   Array<Vec3> points;
-  Array<double> scalars;
+  Array<double> scalars;  ///< one a point; while it is being made, one of each field that steers
   Array<Tet> tets;
   Array<Triangle> boundary;  ///< faces used once, outward
 };

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "solver4.hpp"
+#include "cholesky.hpp"
 #include "sweep.hpp"
 
 namespace tetlod {
@@ -21,29 +21,31 @@ struct Home {
   std::int32_t probe, tet;
 };
 
+template <std::size_t m>
 struct Move {
   using allocator_type = std::pmr::polymorphic_allocator<Home>;
   explicit Move(allocator_type memory) : homes(memory) {}
 
   std::int32_t vertex = -1;
   Vec3 point{0};
-  double value = 0;
+  Values<m> values{};
   Cavity old;                    ///< its star
   double error[largest_cavity];  ///< of its tets afterwards
   Array<Home> homes;
 };
 
-/// The tets around a vertex as they would be with it at another point, with another value.
+/// The tets around a vertex as they would be with it at another point, with other values.
+template <std::size_t m>
 class MovedStar {
  public:
-  MovedStar(const AdaptiveMesh &mesh, const Move &move) : mesh_(mesh), star_(move.old) {
+  MovedStar(const AdaptiveMesh<m> &mesh, const Move<m> &move) : mesh_(mesh), star_(move.old) {
     for (std::size_t i = 0; i < star_.size() && positive_; i++) {
       const Tet &tet = mesh.tets[std::size_t(star_[i])];
       const auto corner = std::size_t(std::find(tet.begin(), tet.end(), move.vertex) - tet.begin());
       Vec3 p[4];
       for (std::size_t k = 0; k < 4; k++) {
         p[k] = k == corner ? move.point : mesh.points[std::size_t(tet[k])];
-        values_[i][k] = k == corner ? move.value : mesh.values[std::size_t(tet[k])];
+        values_[i][k] = k == corner ? move.values : mesh.values[std::size_t(tet[k])];
       }
       positive_ = is_sound(p[0], p[1], p[2], p[3], least_shape);
       frames_[i] = TetFrame(p[0], p[1], p[2], p[3]);
@@ -54,7 +56,7 @@ class MovedStar {
 
   /// Whether the sum of squares is less than `limit`; the errors and homes are written to `move` then. Most probes stay
   /// in their tets.
-  bool is_less(double limit, Move &move) const {
+  bool is_less(double limit, Move<m> &move) const {
     move.homes.clear();
     std::fill(move.error, move.error + star_.size(), 0.0);
     double sum = 0;
@@ -62,31 +64,40 @@ class MovedStar {
       for (std::int32_t p = mesh_.first_probe[std::size_t(star_[i])]; p >= 0; p = mesh_.next_probe[std::size_t(p)]) {
         double w[4];
         const std::size_t home = home_among(frames_, star_.size(), i, mesh_.probes[std::size_t(p)].point, w);
-        double r = -mesh_.probes[std::size_t(p)].value;
-        for (int k = 0; k < 4; k++) r += w[k] * values_[home][k];
-        sum += r * r;
+        const double square = mesh_.square(residual(w, home, mesh_.probes[std::size_t(p)].value));
+        sum += square;
         if (!(sum < limit)) return false;
-        move.error[home] += r * r;
+        move.error[home] += square;
         move.homes.push_back({p, star_[home]});
       }
     return true;
   }
 
  private:
-  const AdaptiveMesh &mesh_;
+  Values<m> residual(const double w[4], std::size_t home, const Values<m> &original) const {
+    Values<m> r;
+    for (std::size_t i = 0; i < m; i++) {
+      r[i] = -original[i];
+      for (int k = 0; k < 4; k++) r[i] += w[k] * values_[home][k][i];
+    }
+    return r;
+  }
+
+  const AdaptiveMesh<m> &mesh_;
   const Cavity &star_;
   bool positive_ = true;
   TetFrame frames_[largest_cavity];
-  double values_[largest_cavity][4];
+  Values<m> values_[largest_cavity][4];
 };
 
 /// Looks for the moves that pay; of the mesh as it is.
+template <std::size_t m>
 class MoveFinder {
  public:
-  MoveFinder(const TetsOfVertices &tets, double least, const AdaptiveMesh &mesh)
+  MoveFinder(const TetsOfVertices &tets, double least, const AdaptiveMesh<m> &mesh)
       : tets_(tets), least_(least), mesh_(mesh) {}
 
-  bool find(std::int32_t v, Move &move) const {
+  bool find(std::int32_t v, Move<m> &move) const {
     move.old.clear();
     for (std::int32_t t : tets_.of(v))
       if (!move.old.push(t)) return false;
@@ -97,8 +108,10 @@ class MoveFinder {
     move.vertex = v;
     for (double length : lengths) {
       move.point = mesh_.points[std::size_t(v)] + length * Vec3(step.by[0], step.by[1], step.by[2]);
-      move.value = std::clamp(mesh_.values[std::size_t(v)] + length * step.by[3], step.low, step.high);
-      const MovedStar moved(mesh_, move);
+      move.values = mesh_.values[std::size_t(v)];
+      for (std::size_t k = 0; k < m; k++) move.values[k] += length * step.by[3 + k] / mesh_.scales.weighted[k];
+      move.values = step.range.clamp(move.values);
+      const MovedStar<m> moved(mesh_, move);
       if (moved.is_positive() && moved.is_less(least_part * old_error, move)) return true;
     }
     return false;
@@ -106,51 +119,53 @@ class MoveFinder {
 
  private:
   struct Step {
-    Vec4 by{};
-    double gain = 0;   ///< to expect
-    double low, high;  ///< of the values around
+    Vector<3 + m> by{};
+    double gain = 0;      ///< to expect
+    ValueRange<m> range;  ///< of the values around
   };
 
   /// A corner that moves by d takes its linear function along: the residual at p changes by w (value - gradient . d).
   bool gauss_newton(std::int32_t v, const Cavity &star, Step &step) const {
     double size2 = 0;
-    std::array<double, 10> a{};  // the lower triangle
-    Vec4 down{};
-    step.low = step.high = mesh_.values[std::size_t(v)];
+    Triangular<3 + m> a{};
+    Vector<3 + m> down{};
+    step.range = ValueRange<m>(mesh_.values[std::size_t(v)]);
     for (std::int32_t t : star) {
       const Tet &tet = mesh_.tets[std::size_t(t)];
       const TetFrame frame = mesh_.frame(t);
       const auto corner = std::size_t(std::find(tet.begin(), tet.end(), v) - tet.begin());
-      const Vec3 g = frame.gradient(mesh_.value(t, 0), mesh_.value(t, 1), mesh_.value(t, 2), mesh_.value(t, 3));
-      const double j[4] = {-g.x, -g.y, -g.z, 1};
       for (std::int32_t u : tet) size2 += length2(mesh_.points[std::size_t(u)] - mesh_.points[std::size_t(v)]);
-      double ww = 0, wr = 0;
+      double ww = 0;
+      Values<m> wr{};
       mesh_.for_probes(t, [&](std::int32_t p) {
-        const Probe &probe = mesh_.probes[std::size_t(p)];
+        const Probe<m> &probe = mesh_.probes[std::size_t(p)];
         double w[4];
         frame.weights(probe.point, w);
         ww += w[corner] * w[corner];
-        wr += w[corner] * mesh_.residual(tet, w, probe);
-        step.low = std::min(step.low, probe.value);
-        step.high = std::max(step.high, probe.value);
+        const Values<m> r = mesh_.residual(tet, w, probe);
+        for (std::size_t k = 0; k < m; k++) wr[k] += w[corner] * r[k];
+        step.range.add(probe.value);
       });
-      for (std::size_t m = 0, entry = 0; m < 4; m++) {
-        for (std::size_t n = 0; n <= m; n++) a[entry++] += ww * j[m] * j[n];
-        down[m] -= wr * j[m];
+      for (std::size_t k = 0; k < m; k++) {
+        const Vector<3 + m> j = jacobian(t, frame, k);
+        const double jr = mesh_.scales.weighted[k] * wr[k];
+        for (std::size_t row = 0; row < 3 + m; row++) {
+          for (std::size_t column = 0; column <= row; column++) a[entry_of(row, column)] += ww * j[row] * j[column];
+          down[row] -= jr * j[row];
+        }
       }
     }
     size2 /= 3 * double(star.size());
     // A step of the star's size costs as much as a residual of the field's change over the star.
-    double &of_value = a[9];
+    const double of_value = a[entry_of(3, 3)];
     const double change2 = (a[0] + a[2] + a[5]) * size2 / std::max(of_value, 1e-300);
     if (!(of_value > 0)) return false;
-    for (std::size_t m : {0, 2, 5}) a[m] += damping * of_value * std::max(change2, 1e-300) / size2;
-    of_value *= 1 + damping;
-    const Solver4 solver(a, 0);
+    for (std::size_t of_point : {0, 2, 5}) a[of_point] += damping * of_value * std::max(change2, 1e-300) / size2;
+    for (std::size_t k = 3; k < 3 + m; k++) a[entry_of(k, k)] *= 1 + damping;
+    const Cholesky<3 + m> solver(a, 0);
     if (!solver.regular()) return false;
     step.by = solver.solve(down);
-    step.gain = 0;
-    for (std::size_t m = 0; m < 4; m++) step.gain += down[m] * step.by[m];
+    step.gain = dot<3 + m>(down, step.by);
     if (!std::isfinite(step.gain)) return false;
     const double far2 = (step.by[0] * step.by[0] + step.by[1] * step.by[1] + step.by[2] * step.by[2]) / (0.25 * size2);
     if (far2 > 1)
@@ -158,14 +173,25 @@ class MoveFinder {
     return true;
   }
 
+  /// Of what field k's residual counts, over the vertex's weight; its value by what it counts.
+  Vector<3 + m> jacobian(std::int32_t t, const TetFrame &frame, std::size_t k) const {
+    const Vec3 g =
+        frame.gradient(mesh_.value(t, 0)[k], mesh_.value(t, 1)[k], mesh_.value(t, 2)[k], mesh_.value(t, 3)[k]);
+    const double scale = mesh_.scales.weighted[k];
+    Vector<3 + m> j{-scale * g.x, -scale * g.y, -scale * g.z};
+    j[3 + k] = 1;
+    return j;
+  }
+
   const TetsOfVertices &tets_;
   double least_;
-  const AdaptiveMesh &mesh_;
+  const AdaptiveMesh<m> &mesh_;
 };
 
-void make_move(const Move &move, AdaptiveMesh &mesh) {
+template <std::size_t m>
+void make_move(const Move<m> &move, AdaptiveMesh<m> &mesh) {
   mesh.points[std::size_t(move.vertex)] = move.point;
-  mesh.values[std::size_t(move.vertex)] = move.value;
+  mesh.values[std::size_t(move.vertex)] = move.values;
   for (std::size_t i = 0; i < move.old.size(); i++) {
     const auto t = std::size_t(move.old[i]);
     mesh.first_probe[t] = -1;
@@ -177,16 +203,22 @@ void make_move(const Move &move, AdaptiveMesh &mesh) {
 
 }  // namespace
 
-std::int64_t move_vertices(std::size_t first, Job &job, AdaptiveMesh &mesh) {
+template <std::size_t m>
+std::int64_t move_vertices(std::size_t first, Job &job, AdaptiveMesh<m> &mesh) {
   Array<std::int32_t> items(&job.memory);
   for (std::size_t v = first; v < mesh.points.size(); v++)
     if (!mesh.fixed[v] && !mesh.kept[v] && mesh.tet_of[v] >= 0) items.push_back(std::int32_t(v));
   const TetsOfVertices tets(mesh, job);  // which stay: vertices move, nothing else
   const Array<std::size_t> batches = batches_apart(mesh, tets, job, items);
-  const MoveFinder finder(tets, quiet * 4 * mesh.total_error() / double(mesh.points.size()), mesh);
-  return sweep<Move>(
-      items, batches, job, mesh, [&](std::int32_t v, Move &move) { return finder.find(v, move); },
-      [&](const Move &move) { make_move(move, mesh); });
+  const MoveFinder<m> finder(tets, quiet * 4 * mesh.total_error() / double(mesh.points.size()), mesh);
+  return sweep<Move<m>>(
+      items, batches, job, mesh, [&](std::int32_t v, Move<m> &move) { return finder.find(v, move); },
+      [&](const Move<m> &move) { make_move(move, mesh); });
 }
+
+template std::int64_t move_vertices(std::size_t, Job &, AdaptiveMesh<1> &);
+template std::int64_t move_vertices(std::size_t, Job &, AdaptiveMesh<2> &);
+template std::int64_t move_vertices(std::size_t, Job &, AdaptiveMesh<3> &);
+template std::int64_t move_vertices(std::size_t, Job &, AdaptiveMesh<4> &);
 
 }  // namespace tetlod

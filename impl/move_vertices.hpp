@@ -5,8 +5,9 @@
 
 namespace tetlod {
 
-/// One Gauss-Newton step on (x, y, z, value) for each inner vertex from number `first` on, shortened where a tet would
+/// One Gauss-Newton step on (x, y, z, values) for each inner vertex from number `first` on, shortened where a tet would
 /// turn over or nothing is gained. Returns how many moved.
-std::int64_t move_vertices(std::size_t first, Job &job, AdaptiveMesh &mesh);
+template <std::size_t m>
+std::int64_t move_vertices(std::size_t first, Job &job, AdaptiveMesh<m> &mesh);
 
 }  // namespace tetlod

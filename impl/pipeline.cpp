@@ -64,7 +64,8 @@ class Pipeline {
       of.solid_tets = double(original_.view.tets.size());
       of.solid_points = double(original_.view.points.size());
     }
-    const double bound = options_.max_error * (report_.scalar_max - report_.scalar_min);
+    const double bound = options_.max_error * original_.range;
+    of.fields = double(original_.view.fields);
     of.tets = std::max(double(budget_.tets), tets_for_bound(original_.view, bound, job_));
     of.points = of.tets / tets_a_point;
     of.probes =
@@ -165,7 +166,7 @@ class Pipeline {
   /// How many original vertices are beyond the bound.
   std::int64_t refine() {
     const StageTimer timer(Stage::values, job_, report_);
-    const double range = report_.scalar_max - report_.scalar_min;
+    const double range = original_.range;
     const Array<std::uint8_t> kept = flags_of_result();
     const RefineOptions options{budget_.tets,
                                 report_.steiner_points,
@@ -246,10 +247,11 @@ class Pipeline {
     const StageTimer timer(Stage::decimate, job_, report_);
     describe_boundary(prepared_.topology(job_), report_);
     const Surface &surface = prepared_.surface(job_);
-    const double range = report_.scalar_max - report_.scalar_min, diagonal = box_of(surface.points).diagonal();
+    const double range = original_.range, diagonal = box_of(surface.points).diagonal();
     const double weight = as_published(options_) || !(range > 0) ? 0 : field_weight_of(report_) * diagonal / range;
-    const DecimateOptions options{sigma, options_.lambda, options_.clean_edges, options_.max_deviation * diagonal,
-                                  weight};
+    DecimateOptions options{sigma, options_.lambda, options_.clean_edges, options_.max_deviation * diagonal};
+    for (std::size_t k = 0; k < surface.fields; k++)
+      options.field_weight[k] = weight * original_.view.scales.weighted[k];
     const Prepared::Decimated decimated = prepared_.decimate(options, input_.index_base, job_, surface_);
     report_.cleaned_edges = decimated.cleaned_edges;
     report_.max_deviation = decimated.deviation / diagonal;
@@ -309,14 +311,14 @@ class Pipeline {
   void reconstruct_field() {
     const StageTimer timer(Stage::values, job_, report_);
     mesh_.scalars.clear();
-    mesh_.scalars.reserve(remeshed_.points.size());
+    mesh_.scalars.reserve(original_.view.fields * remeshed_.points.size());
     std::size_t first_steiner = remeshed_.points.size();
     for (std::size_t i = 0; i < remeshed_.points.size() && first_steiner > i; i++) {
       const std::int32_t origin = remeshed_.origin[i];
       if (origin < 0)
         first_steiner = i;
       else
-        mesh_.scalars.push_back(known_value(std::size_t(origin)));
+        add_known_values(std::size_t(origin));
     }
     Array<double> values(&job_.memory);
     const Span<const Vec3> steiner{remeshed_.points.data() + first_steiner, remeshed_.points.size() - first_steiner};
@@ -339,12 +341,15 @@ class Pipeline {
   void carry() {
     const StageTimer timer(Stage::values, job_, report_);
     carry_fields(input_, options_, original_, boundary_, job_, result_);
+    split_fields(input_, job_, result_);
   }
 
-  double known_value(std::size_t origin) const {
-    const std::size_t boundary = surface_.points.size();
-    return origin < boundary ? surface_.scalars[origin]
-                             : original_.view.scalars[std::size_t(samples_[origin - boundary])];
+  void add_known_values(std::size_t origin) {
+    const std::size_t boundary = surface_.points.size(), fields = original_.view.fields;
+    const double *const values =
+        origin < boundary ? surface_.scalars.data() + origin * fields
+                          : original_.view.scalars.data() + std::size_t(samples_[origin - boundary]) * fields;
+    mesh_.scalars.insert(mesh_.scalars.end(), values, values + fields);
   }
 
   const Input &input_;

@@ -64,14 +64,24 @@ struct SubmittedField {
   StridedArray values;
 };
 
+/// A further field that steers, beside the scalars.
+struct SteeringField {
+  std::string name;
+  double weight = 1;  ///< positive: what its errors count, over its range, beside the scalars' over theirs
+  StridedArray values;
+};
+
 /// The caller's arrays: shapes, types and strides are sound, contents are not looked at yet.
 struct Input {
   std::array<StridedArray, 3> xyz;  ///< one component each
   StridedArray tets;                ///< four components
   std::int32_t index_base = 0;
-  StridedArray scalars;                ///< one component
-  StridedArray flags;                  ///< of points: uint8, one component, keep_vertex or lock_vertex; absent: none
-  std::vector<SubmittedField> fields;  ///< names are unique; as many tuples as points or tets
+  StridedArray scalars;                 ///< one component
+  StridedArray flags;                   ///< of points: uint8, one component, keep_vertex or lock_vertex; absent: none
+  std::vector<SubmittedField> fields;   ///< names are unique; as many tuples as points or tets
+  std::vector<SteeringField> steering;  ///< less than most_fields; names are none of those
+
+  std::size_t steering_fields() const { return 1 + steering.size(); }  ///< with the scalars
 };
 
 /// The rows of the paper's Table 2. Seconds by Stage.
@@ -91,15 +101,15 @@ struct Report {
   std::uint64_t peak_bytes = 0, worker_peak_bytes = 0, hash = 0;
   double scalar_min = 0, scalar_max = 0;
   double max_deviation = 0;  ///< between the boundaries, at the vertices of both, over the diagonal
-  double max_error = 0;      ///< of a run with a target: at the original vertices, over the range
+  double max_error = 0;      ///< of a run with a target: at the original vertices, over the range, of any field
   /// Taken over from earlier work: tets_in or 0, boundary_triangles_out or 0, and samples whose place was known.
   std::int64_t reused_tets = 0, reused_triangles = 0, reused_samples = 0;
 };
 
 /// A field of the result: a tuple a point or a tet.
 struct CarriedField {
-  CarriedField(const SubmittedField &of, Memory &memory)
-      : name(of.name), association(of.association), components(of.values.components), values(&memory) {}
+  CarriedField(const std::string &of, Association of_what, int components_of, Memory &memory)
+      : name(of), association(of_what), components(components_of), values(&memory) {}
   std::string name;
   Association association;
   int components;
@@ -109,8 +119,8 @@ struct CarriedField {
 struct Result {
   explicit Result(Memory &memory) : mesh(memory), stencil(memory) {}
   TetMesh mesh;
-  Stencil stencil;  ///< of the mesh's points, numbered as the caller's; empty until a field needs it
-  std::vector<CarriedField> fields;
+  Stencil stencil;                   ///< of the mesh's points, numbered as the caller's; empty until a field needs it
+  std::vector<CarriedField> fields;  ///< and those that steered beside the scalars
   Report report;
 };
 

@@ -29,19 +29,21 @@ double random_unit(std::uint64_t key) {
   return double((key ^ (key >> 31)) >> 11) * 0x1p-53;
 }
 
-/// The least and the greatest value at the corners of t.
-std::pair<double, double> range_of(const MeshView &mesh, const Tet &t) {
-  double low = mesh.scalars[std::size_t(t[0])], high = low;
-  for (std::int32_t v : t) {
-    low = std::min(low, mesh.scalars[std::size_t(v)]);
-    high = std::max(high, mesh.scalars[std::size_t(v)]);
-  }
-  return {low, high};
+/// Of the values at the corners of t.
+template <std::size_t m>
+ValueRange<m> range_of(Span<const Values<m>> values, const Tet &t) {
+  ValueRange<m> range(values[std::size_t(t[0])]);
+  for (std::int32_t v : t) range.add(values[std::size_t(v)]);
+  return range;
 }
 
+/// Of all fields together, as they count.
+template <std::size_t m>
 double change_of(const MeshView &mesh, const Tet &t) {
-  const auto [low, high] = range_of(mesh, t);
-  return high - low;
+  const ValueRange<m> range = range_of(mesh.values<m>(), t);
+  double change = range.high[0] - range.low[0];
+  for (std::size_t k = 1; k < m; k++) change += mesh.scales.weighted[k] * (range.high[k] - range.low[k]);
+  return change;
 }
 
 /// Takes each of a sequence by its share, evenly: whenever those that went by add up to one more.
@@ -59,29 +61,32 @@ class EvenShares {
   double due_ = 0.5;
 };
 
-void add_vertices(const MeshView &original, double most, Memory &memory, Array<Probe> &probes) {
+template <std::size_t m>
+void add_vertices(const MeshView &original, double most, Memory &memory, Array<Probe<m>> &probes) {
   Array<std::uint8_t> used(original.points.size(), 0, &memory);
   for (const Tet &t : original.tets)
     for (std::int32_t v : t) used[std::size_t(v)] = 1;
   const double share = std::min(1.0, most / double(std::count(used.begin(), used.end(), 1)));
+  const Span<const Values<m>> values = original.values<m>();
   EvenShares shares;
   for (std::size_t v = 0; v < used.size(); v++)
-    if (used[v] && (share == 1 || shares.take(share))) probes.push_back({original.points[v], original.scalars[v]});
+    if (used[v] && (share == 1 || shares.take(share))) probes.push_back({original.points[v], values[v]});
 }
 
 /// At a random place of tet t, uniformly: the gaps between three sorted numbers are its weights.
-Probe probe_inside(const MeshView &original, const Tet &t, std::uint64_t key) {
+template <std::size_t m>
+Probe<m> probe_inside(const MeshView &original, const Tet &t, std::uint64_t key) {
   double cut[3];
   for (std::size_t k = 0; k < 3; k++) cut[k] = random_unit(3 * key + k);
   std::sort(cut, cut + 3);
   const double weights[4] = {cut[0], cut[1] - cut[0], cut[2] - cut[1], 1 - cut[2]};
-  Probe probe{Vec3(0), 0};
+  const Span<const Values<m>> values = original.values<m>();
+  Probe<m> probe{Vec3(0), {}};
   for (std::size_t k = 0; k < 4; k++) {
     probe.point += weights[k] * original.points[std::size_t(t[k])];
-    probe.value += weights[k] * original.scalars[std::size_t(t[k])];
+    for (std::size_t i = 0; i < m; i++) probe.value[i] += weights[k] * values[std::size_t(t[k])][i];
   }
-  const auto [low, high] = range_of(original, t);
-  probe.value = std::clamp(probe.value, low, high);
+  probe.value = range_of(values, t).clamp(probe.value);
   return probe;
 }
 
@@ -91,11 +96,12 @@ double inner_scale(double tets, double most) {
   return std::min(more, most / (tets * (everywhere + by_change)));
 }
 
-void add_inner(const MeshView &original, double most, Job &job, Array<Probe> &probes) {
+template <std::size_t m>
+void add_inner(const MeshView &original, double most, Job &job, Array<Probe<m>> &probes) {
   double sum = 0;
   for (std::size_t i = 0; i < original.tets.size(); i++) {
     if (i % 16384 == 0) job.poll(0);
-    sum += change_of(original, original.tets[i]);
+    sum += change_of<m>(original, original.tets[i]);
   }
   const double count = double(original.tets.size()), mean = sum / count;
   const double scale = inner_scale(count, most);
@@ -103,15 +109,15 @@ void add_inner(const MeshView &original, double most, Job &job, Array<Probe> &pr
   for (std::size_t i = 0; i < original.tets.size(); i++) {
     if (i % 16384 == 0) job.poll(0);
     const Tet &t = original.tets[i];
-    const double share = scale * (everywhere + (mean > 0 ? by_change * change_of(original, t) / mean : 0));
-    for (int n = shares.take(share); n > 0; n--) probes.push_back(probe_inside(original, t, probes.size()));
+    const double share = scale * (everywhere + (mean > 0 ? by_change * change_of<m>(original, t) / mean : 0));
+    for (int n = shares.take(share); n > 0; n--) probes.push_back(probe_inside<m>(original, t, probes.size()));
   }
 }
 
 /// Finds tets by walking, and where the walk meets the boundary, by a tree.
 class Locator {
  public:
-  Locator(const AdaptiveMesh &mesh, Job &job) : mesh_(mesh), frames_(&job.memory), tree_(job.memory) {
+  Locator(const TetComplex &mesh, Job &job) : mesh_(mesh), frames_(&job.memory), tree_(job.memory) {
     Array<Box> boxes(mesh.tets.size(), &job.memory);
     frames_.resize(mesh.tets.size());
     for (std::size_t t = 0; t < mesh.tets.size(); t++) {
@@ -160,14 +166,15 @@ class Locator {
     return found;
   }
 
-  const AdaptiveMesh &mesh_;
+  const TetComplex &mesh_;
   std::int32_t start_ = 0;
   Array<TetFrame> frames_;
   KdTree tree_;
 };
 
 /// Moves the vertices that are outside to the nearest point of the boundary, into the tet there.
-void project(Job &job, Array<std::int32_t> &home, AdaptiveMesh &mesh) {
+template <std::size_t m>
+void project(Job &job, Array<std::int32_t> &home, AdaptiveMesh<m> &mesh) {
   Array<Triangle> faces(&job.memory);
   Array<std::int32_t> tet_of_face(&job.memory);
   for (std::size_t t = 0; t < mesh.tets.size(); t++)
@@ -191,7 +198,8 @@ void project(Job &job, Array<std::int32_t> &home, AdaptiveMesh &mesh) {
   });
 }
 
-Array<std::int32_t> find_homes(Job &job, const AdaptiveMesh &mesh) {
+template <std::size_t m>
+Array<std::int32_t> find_homes(Job &job, const AdaptiveMesh<m> &mesh) {
   const Locator locator(mesh, job);
   Array<std::int32_t> home(mesh.probes.size(), -1, &job.memory);
   job.parallel.for_blocks(home.size(), block, [&](std::size_t begin, std::size_t end) {
@@ -206,11 +214,12 @@ Array<std::int32_t> find_homes(Job &job, const AdaptiveMesh &mesh) {
 }
 
 /// Sorts probes begin to end by their tets, so that those of a tet lie side by side.
-void sort_by_home(std::size_t begin, std::size_t end, AdaptiveMesh &mesh, Array<std::int32_t> &home) {
+template <std::size_t m>
+void sort_by_home(std::size_t begin, std::size_t end, AdaptiveMesh<m> &mesh, Array<std::int32_t> &home) {
   Array<std::size_t> place(mesh.tets.size() + 2, 0, &mesh.memory());
   for (std::size_t i = begin; i < end; i++) place[std::size_t(home[i] + 2)]++;
   for (std::size_t t = 0; t + 1 < place.size(); t++) place[t + 1] += place[t];
-  Array<Probe> probes(end - begin, &mesh.memory());
+  Array<Probe<m>> probes(end - begin, &mesh.memory());
   Array<std::int32_t> homes(end - begin, -1, &mesh.memory());
   for (std::size_t i = begin; i < end; i++) {
     const std::size_t to = place[std::size_t(home[i] + 1)]++;
@@ -237,7 +246,8 @@ std::size_t expected_probes(const MeshView &original, const ProbeOptions &option
   return std::size_t(std::min(double(original.points.size()), options.most_vertices) + 1.01 * inner);
 }
 
-std::int64_t place_probes(const MeshView &original, const ProbeOptions &options, Job &job, AdaptiveMesh &mesh) {
+template <std::size_t m>
+std::int64_t place_probes(const MeshView &original, const ProbeOptions &options, Job &job, AdaptiveMesh<m> &mesh) {
   mesh.probes.clear();
   mesh.probes.reserve(expected_probes(original, options));
   add_vertices(original, options.most_vertices, job.memory, mesh.probes);
@@ -261,5 +271,10 @@ std::int64_t place_probes(const MeshView &original, const ProbeOptions &options,
   });
   return outside;
 }
+
+template std::int64_t place_probes(const MeshView &, const ProbeOptions &, Job &, AdaptiveMesh<1> &);
+template std::int64_t place_probes(const MeshView &, const ProbeOptions &, Job &, AdaptiveMesh<2> &);
+template std::int64_t place_probes(const MeshView &, const ProbeOptions &, Job &, AdaptiveMesh<3> &);
+template std::int64_t place_probes(const MeshView &, const ProbeOptions &, Job &, AdaptiveMesh<4> &);
 
 }  // namespace tetlod

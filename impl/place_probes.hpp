@@ -21,6 +21,7 @@ std::size_t expected_probes(const MeshView &original, const ProbeOptions &option
 /// that a tet uses, and random points in original tets, more of them where the field changes more: with vertices alone
 /// the mesh would be fitted to them and go its own way in between. Returns how many of the vertices are outside of the
 /// mesh; they are left out, or projected.
-std::int64_t place_probes(const MeshView &original, const ProbeOptions &options, Job &job, AdaptiveMesh &mesh);
+template <std::size_t m>
+std::int64_t place_probes(const MeshView &original, const ProbeOptions &options, Job &job, AdaptiveMesh<m> &mesh);
 
 }  // namespace tetlod

@@ -35,14 +35,66 @@ Span<const Vec3> read_points(const Input &input, Job &job, Array<Vec3> &copy) {
 
 Span<const double> read_scalars(const Input &input, Job &job, Array<double> &copy) {
   const auto count = std::size_t(input.scalars.tuples);
-  if (input.scalars.packed_as(ElementType::float64))
+  if (input.steering.empty() && input.scalars.packed_as(ElementType::float64))
     return {reinterpret_cast<const double *>(input.scalars.data), count};
-  copy.resize(count);
+  const std::size_t fields = input.steering_fields();
+  copy.resize(count * fields);
   job.parallel.for_blocks(count, block, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; i++) copy[i] = input.scalars.real(std::int64_t(i), 0);
+    for (std::size_t k = 0; k < fields; k++) {
+      const StridedArray &field = k == 0 ? input.scalars : input.steering[k - 1].values;
+      for (std::size_t i = begin; i < end; i++) copy[i * fields + k] = field.real(std::int64_t(i), 0);
+    }
     job.poll(0);
   });
   return copy;
+}
+
+void read_values(const Input &input, Job &job, Original &original) {
+  original.view.scalars = read_scalars(input, job, original.scalars);
+  original.view.fields = input.steering_fields();
+}
+
+/// The first field with a value that is not finite at vertex v; else the number of fields.
+std::size_t first_nonfinite(const MeshView &mesh, std::size_t v) {
+  std::size_t k = 0;
+  while (k < mesh.fields && std::isfinite(mesh.scalars[v * mesh.fields + k])) k++;
+  return k;
+}
+
+/// Of the fields of a mesh, field by field.
+using Ranges = ValueRange<most_fields>;
+
+void add_values(const MeshView &mesh, std::size_t v, Ranges &ranges) {
+  for (std::size_t k = 0; k < mesh.fields; k++) {
+    ranges.low[k] = std::min(ranges.low[k], mesh.scalars[v * mesh.fields + k]);
+    ranges.high[k] = std::max(ranges.high[k], mesh.scalars[v * mesh.fields + k]);
+  }
+}
+
+/// Away from the ends of doubles, so that what is scaled by it can be scaled back.
+double sane_scale(double scale) {
+  constexpr double least = 1e-100, most = 1e100;
+  return scale > least ? std::min(scale, most) : least;
+}
+
+/// What errors of a field are compared with. A constant one's are of rounding: they are to count next to nothing.
+double extent_of(const Ranges &ranges, std::size_t k) {
+  const double range = ranges.high[k] - ranges.low[k];
+  return range > 0 ? range : std::max({std::abs(ranges.low[k]), std::abs(ranges.high[k]), 1.0});
+}
+
+void find_scales(const Input &input, const Ranges &ranges, Original &original) {
+  original.scalar_min = ranges.low[0];
+  original.scalar_max = ranges.high[0];
+  original.range = ranges.high[0] - ranges.low[0];
+  original.view.scales = {};
+  for (std::size_t k = 1; k < original.view.fields; k++)
+    if (!(original.range > 0) && ranges.high[k] > ranges.low[k]) original.range = extent_of(ranges, 0);
+  for (std::size_t k = 1; k < original.view.fields; k++) {
+    const double relative = sane_scale(original.range / extent_of(ranges, k));
+    original.view.scales.relative[k] = relative;
+    original.view.scales.weighted[k] = sane_scale(relative * input.steering[k - 1].weight);
+  }
 }
 
 /// Lowest tet that breaks a rule, over all blocks; deterministic because the lowest is.
@@ -111,31 +163,33 @@ Array<std::uint8_t> find_used(Span<const Tet> tets, std::size_t points, Job &job
   return used;
 }
 
+[[noreturn]] void refuse_value(const Input &input, const MeshView &mesh, std::size_t v, std::size_t field) {
+  const std::string of_field = field > 0 ? "of field " + input.steering[field - 1].name.substr(0, 100) + " " : "";
+  fail(Status::mesh_nonfinite, "the value %sof vertex %zu is %s", of_field.c_str(), v + std::size_t(input.index_base),
+       number(mesh.scalars[v * mesh.fields + field]).c_str());
+}
+
 /// Looks at the coordinates and values of the points that tets use. Points without a finite value are marked as not
 /// used, or refused.
 void check_used_points(const Input &input, const Options &options, Original &original, Array<std::uint8_t> &used) {
   const MeshView &mesh = original.view;
-  original.scalar_min = std::numeric_limits<double>::infinity();
-  original.scalar_max = -original.scalar_min;
+  Ranges ranges;
   for (std::size_t v = 0; v < used.size(); v++) {
     if (!used[v]) continue;
     for (int k = 0; k < 3; k++)
       if (!std::isfinite(mesh.points[v][k]))
         fail(Status::mesh_nonfinite, "coordinate %c of vertex %zu is %s", "xyz"[k], v + std::size_t(input.index_base),
              number(mesh.points[v][k]).c_str());
-    const double value = mesh.scalars[v];
-    if (!std::isfinite(value)) {
-      if (options.on_nonfinite == policy_error)
-        fail(Status::mesh_nonfinite, "the value of vertex %zu is %s", v + std::size_t(input.index_base),
-             number(value).c_str());
+    if (const std::size_t k = first_nonfinite(mesh, v); k < mesh.fields) {
+      if (options.on_nonfinite == policy_error) refuse_value(input, mesh, v, k);
       used[v] = 0;
       original.nonfinite_points++;
       continue;
     }
-    original.scalar_min = std::min(original.scalar_min, value);
-    original.scalar_max = std::max(original.scalar_max, value);
+    add_values(mesh, v, ranges);
     original.box.add(mesh.points[v]);
   }
+  find_scales(input, ranges, original);
 }
 
 /// Renames merged vertices and leaves out the tets that have a vertex twice or one that is not used; the tets then are
@@ -194,6 +248,13 @@ bool any_repeated_vertex(Span<const Tet> tets, Job &job) {
   return culprit.any();
 }
 
+bool has_a_value_a_point(const Input &input) {
+  const std::int64_t points = input.xyz[0].tuples;
+  return input.scalars.tuples == points &&
+         std::all_of(input.steering.begin(), input.steering.end(),
+                     [&](const SteeringField &field) { return field.values.tuples == points; });
+}
+
 void check_counts(const Input &input) {
   if (input.xyz[0].tuples == 0 || input.tets.tuples == 0)
     fail(Status::mesh_empty, "the mesh has %lld points and %lld tets", static_cast<long long>(input.xyz[0].tuples),
@@ -201,6 +262,10 @@ void check_counts(const Input &input) {
   if (input.scalars.tuples != input.xyz[0].tuples)
     fail(Status::argument, "%lld values for %lld points", static_cast<long long>(input.scalars.tuples),
          static_cast<long long>(input.xyz[0].tuples));
+  for (const SteeringField &field : input.steering)
+    if (field.values.tuples != input.xyz[0].tuples)
+      fail(Status::argument, "field %.100s: %lld values for %lld points", field.name.c_str(),
+           static_cast<long long>(field.values.tuples), static_cast<long long>(input.xyz[0].tuples));
   if (input.flags.present && input.flags.tuples != input.xyz[0].tuples)
     fail(Status::argument, "%lld flags for %lld points", static_cast<long long>(input.flags.tuples),
          static_cast<long long>(input.xyz[0].tuples));
@@ -223,7 +288,7 @@ int extreme_exponent(const Box &box) {
 void prepare_original(const Input &input, const Options &options, Job &job, Original &original) {
   check_counts(input);
   original.view.points = read_points(input, job, original.points);
-  original.view.scalars = read_scalars(input, job, original.scalars);
+  read_values(input, job, original);
   original.view.tets = read_tets(input, job, original.tets);
   Array<std::uint8_t> &used = original.used;
   used = find_used(original.view.tets, original.view.points.size(), job);
@@ -243,22 +308,19 @@ void prepare_original(const Input &input, const Options &options, Job &job, Orig
 }
 
 bool renew_values(const Input &input, Job &job, Original &original) {
-  if (original.nonfinite_points > 0 || input.scalars.tuples != input.xyz[0].tuples) return false;
+  if (original.nonfinite_points > 0 || !has_a_value_a_point(input)) return false;
   const auto points = std::size_t(input.xyz[0].tuples), tets = std::size_t(input.tets.tuples);
   if (original.points.empty()) original.view.points = {reinterpret_cast<const Vec3 *>(input.xyz[0].data), points};
   if (original.tets.empty()) original.view.tets = {reinterpret_cast<const Tet *>(input.tets.data), tets};
-  original.view.scalars = read_scalars(input, job, original.scalars);
-  double low = std::numeric_limits<double>::infinity(), high = -low;
+  read_values(input, job, original);
+  Ranges ranges;
   for (std::size_t v = 0; v < points; v++) {
     if (v % block == 0) job.poll(0.5);
     if (!original.used[v]) continue;
-    const double value = original.view.scalars[v];
-    if (!std::isfinite(value)) return false;
-    low = std::min(low, value);
-    high = std::max(high, value);
+    if (first_nonfinite(original.view, v) < original.view.fields) return false;
+    add_values(original.view, v, ranges);
   }
-  original.scalar_min = low;
-  original.scalar_max = high;
+  find_scales(input, ranges, original);
   return true;
 }
 

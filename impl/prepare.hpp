@@ -14,7 +14,7 @@ struct Original {
       : points(&memory), scalars(&memory), tets(&memory), tet_number(&memory), flags(&memory), used(&memory) {}
   MeshView view;
   Array<Vec3> points;
-  Array<double> scalars;
+  Array<double> scalars;  ///< with those of the further fields that steer
   Array<Tet> tets;
   Array<std::int32_t> tet_number;     ///< of each tet among the submitted ones; empty: none was dropped
   Array<std::uint8_t> flags;          ///< of each vertex, those of points that became it included; empty: none are set
@@ -24,7 +24,8 @@ struct Original {
   std::int64_t dropped_tets = 0;      ///< with such a point, or with a repeated vertex, as submitted or after merging
   int exponent = 0;                   ///< the view's coordinates are the caller's divided by 2^exponent
   double scalar_min = 0, scalar_max = 0;  ///< over the vertices that tets use
-  Box box;                                ///< of the vertices that tets use
+  double range = 0;  ///< of the scalars; where they are constant and another field is not, something in its place
+  Box box;           ///< of the vertices that tets use
 };
 
 /// The power of two that coordinates in this box have to be divided by, so that products of six lengths stay in the

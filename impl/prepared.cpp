@@ -20,10 +20,10 @@ Fingerprint stamp_of(const Input &input, const Options &options, Job &job) {
   return stamp;
 }
 
-/// Of what a cost that sees the field depends on; of nothing, for the paper's.
-Fingerprint fingerprint_of(Span<const double> values, double field_weight) {
+/// Of what a cost that sees the fields depends on; of nothing, for the paper's.
+Fingerprint fingerprint_of(Span<const double> values, const DecimateOptions &options) {
   Fingerprint fingerprint;
-  if (field_weight > 0)
+  if (options.sees_fields())
     for (double value : values) fingerprint.add(value);
   return fingerprint;
 }
@@ -51,8 +51,11 @@ void Prepared::prepare_surface(Job &job) {
     topology_ = std::move(topology);
     has_surface_ = true;
   }
+  const std::size_t fields = surface_.fields = original.view.fields;
+  surface_.scalars.resize(fields * surface_.points.size());
   for (std::size_t i = 0; i < surface_.origin.size(); i++)
-    surface_.scalars[i] = original.view.scalars[std::size_t(surface_.origin[i])];
+    for (std::size_t k = 0; k < fields; k++)
+      surface_.scalars[i * fields + k] = original.view.scalars[std::size_t(surface_.origin[i]) * fields + k];
 }
 
 const Surface &Prepared::surface(Job &job) {
@@ -80,14 +83,14 @@ bool Prepared::Logged::holds(const DecimateOptions &of, const Fingerprint &of_va
 DecimateReport Prepared::decimate_logged(const DecimateOptions &options, Span<const std::uint8_t> flags, Job &job,
                                          Surface &surface, bool &reused) {
   Logged &logged = options.careful ? careful_ : careless_;
-  const Fingerprint values = fingerprint_of(surface_.scalars, options.field_weight);
+  const Fingerprint values = fingerprint_of(surface_.scalars, options);
   DecimateReport report;
   report.edges_in = std::int64_t(topology_.mate.size() / 2);
   const std::int64_t count =
       logged.holds(options, values) ? collapses_to(options.sigma, report.edges_in, logged.log) : -1;
   reused = count >= 0;
   if (reused) {
-    const Values way = options.field_weight > 0 ? Values::logged : Values::along_edges;
+    const MovedValues way = options.sees_fields() ? MovedValues::logged : MovedValues::along_edges;
     replay(logged.log, std::size_t(count), topology_, way, job, surface);
     if (logged.measured != count) logged.deviation = largest_deviation(surface_, surface, job);
     logged.measured = count;

@@ -22,12 +22,15 @@ namespace {
 constexpr double price_of_tet = 1.33, price_of_vertex = 0.5;
 constexpr int fit_steps = 8, last_fit_steps = 20;
 
+template <std::size_t m>
 class Refinement {
  public:
   Refinement(const MeshView &original, const RefineOptions &options, Job &job, TetMesh &mesh)
       : original_(original), options_(options), job_(job), out_(mesh), mesh_(job.memory) {
     mesh_.points = std::move(mesh.points);
-    mesh_.values = std::move(mesh.scalars);
+    const Values<m> *values = reinterpret_cast<const Values<m> *>(mesh.scalars.data());
+    mesh_.values.assign(values, values + mesh_.points.size());
+    mesh_.scales = original.scales;
     mesh_.tets = std::move(mesh.tets);
     sort_by_place(mesh_.points, mesh_.tets, job);
     first_inserted_ = mesh_.points.size();
@@ -122,7 +125,7 @@ class Refinement {
         if ((mesh_.fixed[v] != 0) != boundary || mesh_.tet_of[v] < 0) continue;
         number[v] = std::int32_t(out_.points.size());
         out_.points.push_back(mesh_.points[v]);
-        out_.scalars.push_back(mesh_.values[v]);
+        out_.scalars.insert(out_.scalars.end(), mesh_.values[v].begin(), mesh_.values[v].end());
       }
     for (std::size_t t = 0; t < mesh_.tets.size(); t++) {
       if (t % 65536 == 0) job_.poll(1);
@@ -141,7 +144,7 @@ class Refinement {
   const RefineOptions &options_;
   Job &job_;
   TetMesh &out_;
-  AdaptiveMesh mesh_;
+  AdaptiveMesh<m> mesh_;
   std::optional<NearestTriangle> nearest_;
   std::size_t first_inserted_ = 0;
   RefineReport report_;
@@ -150,7 +153,7 @@ class Refinement {
 }  // namespace
 
 RefineReport refine(const MeshView &original, const RefineOptions &options, Job &job, TetMesh &mesh) {
-  return Refinement(original, options, job, mesh).run();
+  return with_fields(original.fields, [&](auto m) { return Refinement<m>(original, options, job, mesh).run(); });
 }
 
 }  // namespace tetlod

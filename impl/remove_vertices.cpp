@@ -16,9 +16,10 @@ struct Collapse {
 };
 
 /// Looks for the collapse of a vertex that costs least; of the mesh as it is.
+template <std::size_t m>
 class CollapseFinder {
  public:
-  CollapseFinder(double price, const AdaptiveMesh &mesh) : price_(price), mesh_(mesh) {}
+  CollapseFinder(double price, const AdaptiveMesh<m> &mesh) : price_(price), mesh_(mesh) {}
 
   bool find(std::int32_t v, Collapse &collapse) const {
     if (mesh_.tet_of[std::size_t(v)] < 0 || !mesh_.star(v, collapse.old)) return false;
@@ -53,12 +54,13 @@ class CollapseFinder {
   }
 
   double price_;
-  const AdaptiveMesh &mesh_;
+  const AdaptiveMesh<m> &mesh_;
 };
 
 }  // namespace
 
-std::int64_t remove_vertices(double price, Job &job, AdaptiveMesh &mesh) {
+template <std::size_t m>
+std::int64_t remove_vertices(double price, Job &job, AdaptiveMesh<m> &mesh) {
   Array<std::int32_t> items(&job.memory), made(&job.memory);
   for (std::size_t v = 0; v < mesh.points.size(); v++)
     if (!mesh.fixed[v] && !mesh.kept[v] && mesh.tet_of[v] >= 0) items.push_back(std::int32_t(v));
@@ -71,5 +73,10 @@ std::int64_t remove_vertices(double price, Job &job, AdaptiveMesh &mesh) {
         mesh.tet_of[std::size_t(collapse.vertex)] = -1;
       });
 }
+
+template std::int64_t remove_vertices(double, Job &, AdaptiveMesh<1> &);
+template std::int64_t remove_vertices(double, Job &, AdaptiveMesh<2> &);
+template std::int64_t remove_vertices(double, Job &, AdaptiveMesh<3> &);
+template std::int64_t remove_vertices(double, Job &, AdaptiveMesh<4> &);
 
 }  // namespace tetlod

@@ -12,10 +12,12 @@ struct Cell {
   std::size_t begin, end;
 };
 
+/// Of several fields, each counts as mesh.scales.weighted says.
+template <std::size_t m>
 class SamplingTree {
  public:
   SamplingTree(const MeshView &mesh, Span<std::int32_t> vertices, double variation, Job &job)
-      : mesh_(mesh), vertices_(vertices), variation_(variation), job_(job) {}
+      : mesh_(mesh), values_(mesh.values<m>()), vertices_(vertices), variation_(variation), job_(job) {}
 
   /// Depth first, so that the leaves come in the order of the vertices' runs; a stack of its own, because values that
   /// separate one vertex at a time make a tree as deep as there are vertices.
@@ -48,16 +50,26 @@ class SamplingTree {
   };
 
   const Vec3 &point(std::int32_t v) const { return mesh_.points[std::size_t(v)]; }
-  double value(std::int32_t v) const { return mesh_.scalars[std::size_t(v)]; }
+  const Values<m> &values(std::int32_t v) const { return values_[std::size_t(v)]; }
+  double scaled(std::size_t k, double of_field) const { return mesh_.scales.weighted[k] * of_field; }
 
+  /// Of the field that varies most.
   Extremes extremes_of(const Cell &cell) const {
-    std::int32_t least = vertices_[cell.begin], most = least;
-    for (std::size_t i = cell.begin + 1; i < cell.end; i++) {
-      const std::int32_t v = vertices_[i];
-      if (value(v) < value(least)) least = v;
-      if (value(v) > value(most)) most = v;
+    std::array<std::int32_t, m> least, most;
+    least.fill(vertices_[cell.begin]);
+    most = least;
+    for (std::size_t i = cell.begin + 1; i < cell.end; i++)
+      for (std::size_t k = 0; k < m; k++) {
+        const std::int32_t v = vertices_[i];
+        if (values(v)[k] < values(least[k])[k]) least[k] = v;
+        if (values(v)[k] > values(most[k])[k]) most[k] = v;
+      }
+    Extremes extremes{point(least[0]), point(most[0]), values(most[0])[0] - values(least[0])[0]};
+    for (std::size_t k = 1; k < m; k++) {
+      const double variation = scaled(k, values(most[k])[k] - values(least[k])[k]);
+      if (variation > extremes.variation) extremes = {point(least[k]), point(most[k]), variation};
     }
-    return {point(least), point(most), value(most) - value(least)};
+    return extremes;
   }
 
   /// Cuts at the middle of g = x_max - x_min on the axis where g is longest. Returns where the second half begins;
@@ -91,19 +103,27 @@ class SamplingTree {
   }
 
   std::int32_t nearest_to_mean(const Cell &cell) const {
-    double sum = 0;
-    for (std::size_t i = cell.begin; i < cell.end; i++) sum += value(vertices_[i]);
-    const double mean = sum / double(cell.end - cell.begin);
+    Values<m> mean{};
+    for (std::size_t i = cell.begin; i < cell.end; i++)
+      for (std::size_t k = 0; k < m; k++) mean[k] += values(vertices_[i])[k];
+    for (double &of_field : mean) of_field /= double(cell.end - cell.begin);
     std::int32_t best = vertices_[cell.begin];
     for (std::size_t i = cell.begin + 1; i < cell.end; i++) {
       const std::int32_t v = vertices_[i];
-      const double d = std::abs(value(v) - mean), best_d = std::abs(value(best) - mean);
+      const double d = distance(values(v), mean), best_d = distance(values(best), mean);
       if (d < best_d || (d == best_d && v < best)) best = v;
     }
     return best;
   }
 
+  double distance(const Values<m> &a, const Values<m> &b) const {
+    double largest = std::abs(a[0] - b[0]);
+    for (std::size_t k = 1; k < m; k++) largest = std::max(largest, scaled(k, std::abs(a[k] - b[k])));
+    return largest;
+  }
+
   const MeshView &mesh_;
+  Span<const Values<m>> values_;
   Span<std::int32_t> vertices_;
   double variation_;
   Job &job_;
@@ -113,7 +133,7 @@ class SamplingTree {
 
 void sample_interior(const MeshView &mesh, Span<std::int32_t> vertices, double variation, Job &job,
                      Array<std::int32_t> &samples) {
-  SamplingTree(mesh, vertices, variation, job).sample(samples);
+  with_fields(mesh.fields, [&](auto m) { SamplingTree<m>(mesh, vertices, variation, job).sample(samples); });
 }
 
 void add_flagged(Span<const std::uint8_t> flags, Span<const std::int32_t> vertices, Array<std::int32_t> &samples) {

@@ -8,8 +8,9 @@
 namespace tetlod {
 
 /// One vertex for each leaf of the tree over `vertices`, in the order of the leaves. A node is split while the
-/// variation of its values exceeds `variation` (rho times the range of the field); the sample of a leaf is the vertex
-/// whose value is nearest the leaf's mean, the lowest numbered of equals. `vertices` is reordered.
+/// variation of its values, of any field as it counts, exceeds `variation` (rho times the range of the first); the
+/// sample of a leaf is the vertex whose values are nearest the leaf's means, the lowest numbered of equals. `vertices`
+/// is reordered.
 void sample_interior(const MeshView &mesh, Span<std::int32_t> vertices, double variation, Job &job,
                      Array<std::int32_t> &samples);
 

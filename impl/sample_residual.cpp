@@ -17,42 +17,59 @@ constexpr double doubt = 0.2;
 /// Points to look at between two polls.
 constexpr std::size_t many = 1 << 15;
 
-/// Sums over points, relative to `centre`, for a linear fit.
+/// Sums over points, relative to `centre`, for a linear fit of each field.
+template <std::size_t m>
 struct Moments {
-  double n = 0, x[3] = {}, xx[6] = {}, f = 0, fx[3] = {}, ff = 0;
+  double n = 0, x[3] = {}, xx[6] = {};
+  struct {
+    double f = 0, fx[3] = {}, ff = 0;
+  } of[m];
 
-  void add(const Vec3 &p, double value) {
+  void add(const Vec3 &p, const Values<m> &values) {
     n++;
-    f += value;
-    ff += value * value;
+    for (std::size_t k = 0; k < m; k++) {
+      of[k].f += values[k];
+      of[k].ff += values[k] * values[k];
+      for (int i = 0; i < 3; i++) of[k].fx[i] += values[k] * p[i];
+    }
     for (int i = 0, e = 0; i < 3; i++) {
       x[i] += p[i];
-      fx[i] += value * p[i];
       for (int j = 0; j <= i; j++) xx[e++] += p[i] * p[j];
     }
   }
 
-  /// The squares that the best linear function leaves.
-  double residual() const {
+  /// The squares that the best linear functions leave, as they count.
+  double residual(const FieldScales &scales) const {
     if (n < 2) return 0;
-    double a[6], b[3], left = ff - f * f / n, trace = 0;
-    for (int i = 0, e = 0; i < 3; i++) {
-      b[i] = fx[i] - f * x[i] / n;
+    double a[6];
+    for (int i = 0, e = 0; i < 3; i++)
       for (int j = 0; j <= i; j++, e++) a[e] = xx[e] - x[i] * x[j] / n;
+    double sum = 0;
+    for (std::size_t k = 0; k < m; k++) {
+      const double scale = scales.weighted[k];
+      sum += scale * (scale * std::max(left_of(k, a), 0.0));
     }
-    trace = a[0] + a[2] + a[5];
+    return sum;
+  }
+
+ private:
+  double left_of(std::size_t k, const double a[6]) const {
+    const auto [f, fx, ff] = of[k];
+    const double b[3] = {fx[0] - f * x[0] / n, fx[1] - f * x[1] / n, fx[2] - f * x[2] / n};
+    const double trace = a[0] + a[2] + a[5];
+    double left = ff - f * f / n;
     // Cholesky without roots; directions without extent tell nothing.
     const double least = 1e-9 * trace;
-    if (!(a[0] > least)) return std::max(left, 0.0);
+    if (!(a[0] > least)) return left;
     const double l10 = a[1] / a[0], l20 = a[3] / a[0];
     left -= b[0] * b[0] / a[0];
     const double d1 = a[2] - l10 * a[1], b1 = b[1] - l10 * b[0];
-    if (!(d1 > least)) return std::max(left, 0.0);
+    if (!(d1 > least)) return left;
     left -= b1 * b1 / d1;
     const double l21 = (a[4] - l20 * a[1]) / d1, d2 = a[5] - l20 * a[3] - l21 * l21 * d1,
                  b2 = b[2] - l20 * b[0] - l21 * b1;
     if (d2 > least) left -= b2 * b2 / d2;
-    return std::max(left, 0.0);
+    return left;
   }
 };
 
@@ -62,10 +79,16 @@ struct Leaf {
   Box box;
 };
 
+template <std::size_t m>
 class ResidualTree {
  public:
   ResidualTree(const MeshView &mesh, Array<std::int32_t> &vertices, Span<const std::uint8_t> is_interior, Job &job)
-      : mesh_(mesh), vertices_(vertices), is_interior_(is_interior), job_(job), heap_(&job.memory) {
+      : mesh_(mesh),
+        values_(mesh.values<m>()),
+        vertices_(vertices),
+        is_interior_(is_interior),
+        job_(job),
+        heap_(&job.memory) {
     const Leaf root = leaf(0, vertices.size());
     mean_ = doubt * root.error / double(std::max<std::size_t>(vertices.size(), 1));
     push(root);
@@ -119,7 +142,12 @@ class ResidualTree {
  private:
   static bool less(const Leaf &a, const Leaf &b) { return a.error != b.error ? a.error < b.error : a.begin > b.begin; }
   const Vec3 &point(std::int32_t v) const { return mesh_.points[std::size_t(v)]; }
-  double value(std::int32_t v) const { return mesh_.scalars[std::size_t(v)]; }
+  /// Beside another's.
+  Values<m> value(std::int32_t v, const Values<m> &offset) const {
+    Values<m> values = values_[std::size_t(v)];
+    for (std::size_t k = 0; k < m; k++) values[k] -= offset[k];
+    return values;
+  }
 
   bool has_interior(const Leaf &l) const {
     for (std::size_t i = l.begin; i < l.end; i++)
@@ -137,10 +165,10 @@ class ResidualTree {
     Leaf l{0, begin, end, {}};
     for (std::size_t i = begin; i < end; i++) l.box.add(point(vertices_[i]));
     const Vec3 centre = 0.5 * (l.box.low + l.box.high);
-    const double offset = begin < end ? value(vertices_[begin]) : 0;
-    Moments sums;
-    for (std::size_t i = begin; i < end; i++) sums.add(point(vertices_[i]) - centre, value(vertices_[i]) - offset);
-    l.error = sums.residual() + (end - begin <= few ? mean_ * double(end - begin) : 0);
+    const Values<m> offset = begin < end ? values_[std::size_t(vertices_[begin])] : Values<m>{};
+    Moments<m> sums;
+    for (std::size_t i = begin; i < end; i++) sums.add(point(vertices_[i]) - centre, value(vertices_[i], offset));
+    l.error = sums.residual(mesh_.scales) + (end - begin <= few ? mean_ * double(end - begin) : 0);
     return l;
   }
 
@@ -149,18 +177,18 @@ class ResidualTree {
     if (l.end - l.begin < 2) return l.begin;
     const Vec3 centre = 0.5 * (l.box.low + l.box.high), extent = l.box.high - l.box.low;
     const double longest = std::max({extent.x, extent.y, extent.z});
-    const double offset = value(vertices_[l.begin]);
-    Moments sides[3][2];
+    const Values<m> offset = values_[std::size_t(vertices_[l.begin])];
+    Moments<m> sides[3][2];
     for (std::size_t i = l.begin; i < l.end; i++) {
       const Vec3 p = point(vertices_[i]) - centre;
       for (int k = 0; k < 3; k++)
-        if (thinnest * extent[k] >= longest) sides[k][p[k] >= 0].add(p, value(vertices_[i]) - offset);
+        if (thinnest * extent[k] >= longest) sides[k][p[k] >= 0].add(p, value(vertices_[i], offset));
     }
     int axis = -1;
     double least = std::numeric_limits<double>::infinity();
     for (int k = 0; k < 3; k++) {
       if (thinnest * extent[k] < longest || !(extent[k] > 0)) continue;
-      const double error = sides[k][0].residual() + sides[k][1].residual();
+      const double error = sides[k][0].residual(mesh_.scales) + sides[k][1].residual(mesh_.scales);
       if (error < least) {
         least = error;
         axis = k;
@@ -174,6 +202,7 @@ class ResidualTree {
   }
 
   const MeshView &mesh_;
+  Span<const Values<m>> values_;
   Array<std::int32_t> &vertices_;
   Span<const std::uint8_t> is_interior_;
   Job &job_;
@@ -188,9 +217,11 @@ class ResidualTree {
 void sample_residual(const MeshView &mesh, Array<std::int32_t> &vertices, Span<const std::uint8_t> is_interior,
                      std::size_t target, Job &job, Array<std::int32_t> &samples) {
   if (vertices.empty() || target == 0) return;
-  ResidualTree tree(mesh, vertices, is_interior, job);
-  tree.grow(target);
-  tree.pick(samples);
+  with_fields(mesh.fields, [&](auto m) {
+    ResidualTree<m> tree(mesh, vertices, is_interior, job);
+    tree.grow(target);
+    tree.pick(samples);
+  });
 }
 
 }  // namespace tetlod

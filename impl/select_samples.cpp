@@ -27,7 +27,7 @@ void sample_where_not_linear(const Original &original, const Boundary &boundary,
 void select_samples(const Original &original, const Boundary &boundary, const Options &options, std::size_t samples,
                     Job &job, Array<std::int32_t> &selected) {
   if (as_published(options)) {
-    const double variation = options.rho * (original.scalar_max - original.scalar_min);
+    const double variation = options.rho * original.range;
     Array<std::int32_t> vertices(boundary.interior, &job.memory);  // which sampling sorts
     sample_interior(original.view, {vertices.data(), vertices.size()}, variation, job, selected);
   } else {

@@ -1,185 +1,91 @@
 #include "solid_mesh.hpp"
 
-#include "adaptive_mesh.hpp"
+#include "tet_frame.hpp"
 
 namespace tetlod {
 
-namespace {
-
-/// Neighbours of a vertex, about.
-constexpr std::size_t usual_neighbours = 15;
-
-double volume6(const SolidMesh &mesh, const Tet &t) {
-  return det(mesh.point(t[0]), mesh.point(t[1]), mesh.point(t[2]), mesh.point(t[3]));
-}
-
-Array<Tet> without_excluded(const MeshView &original, const Boundary &boundary, Memory &memory) {
-  Array<Tet> tets(&memory);
-  tets.reserve(original.tets.size());
-  for (std::size_t t = 0; t < original.tets.size(); t++)
-    if (boundary.excluded.empty() || !boundary.excluded[t]) tets.push_back(original.tets[t]);
-  return tets;
-}
-
-}  // namespace
-
-SolidMesh::SolidMesh(const MeshView &original, const Boundary &boundary, double scale, Job &job)
-    : vertices(original.points.size(), SolidVertex(), &job.memory),
-      ranks(original.points.size(), Rank::inner, &job.memory),
-      tets(without_excluded(original, boundary, job.memory)),
-      triangles(boundary.triangles.begin(), boundary.triangles.end(), &job.memory),
-      tets_of(Span<const Tet>(tets), original.points.size(), job),
-      triangles_of(Span<const Triangle>(triangles), original.points.size(), job),
-      neighbours(original.points.size(), usual_neighbours * original.points.size(), job),
-      count(std::int64_t(tets.size())),
-      touched_(tets.size(), 0, &job.memory),
-      list_(&job.memory) {
-  for (std::size_t v = 0; v < vertices.size(); v++) {
-    const Vec3 &p = original.points[v];
-    vertices[v].place = {p.x, p.y, p.z, scale * original.scalars[v]};
-  }
-  for (Tet &t : tets)
-    if (volume6(*this, t) < 0) std::swap(t[2], t[3]);
-  for (const Triangle &t : triangles)
-    for (std::int32_t v : t) ranks[std::size_t(v)] = Rank::boundary;
-  find_neighbours(job);
+template <std::size_t m>
+SolidMesh<m>::SolidMesh(const MeshView &original, const Boundary &boundary, const Values<m> &scales, Job &job)
+    : SolidComplex(original, boundary, job), vertices_(original.points.size(), Vertex(), &job.memory) {
+  const Span<const Values<m>> values = original.values<m>();
+  for (std::size_t v = 0; v < vertices_.size(); v++)
+    for (std::size_t i = 0; i < 3 + m; i++)
+      vertices_[v].place[i] = i < 3 ? original.points[v][int(i)] : scales[i - 3] * values[v][i - 3];
   find_quadrics(job);
 }
 
-Vec3 SolidMesh::normal(std::int32_t triangle) const {
-  const Triangle &t = triangles[std::size_t(triangle)];
-  return area_vector(point(t[0]), point(t[1]), point(t[2]));
-}
-
-double SolidMesh::volume() const {
-  double sum = 0;
-  for (const Tet &t : tets)
-    if (t[0] >= 0) sum += volume6(*this, t);
-  return sum / 6;
-}
-
-void SolidMesh::find_neighbours(Job &job) {
-  Array<std::int32_t> seen_by(vertices.size(), -1, &job.memory);
-  for (std::size_t v = 0; v < vertices.size(); v++) {
-    if (v % 4096 == 0) job.poll(0);
-    list_.clear();
-    seen_by[v] = std::int32_t(v);
-    for (std::int32_t t : tets_of.of(std::int32_t(v)))
-      for (std::int32_t u : tets[std::size_t(t)]) {
-        if (seen_by[std::size_t(u)] == std::int32_t(v)) continue;
-        seen_by[std::size_t(u)] = std::int32_t(v);
-        list_.push_back(u);
-      }
-    neighbours.set(std::int32_t(v), list_);
+/// Of the tet's linear functions; none for a flat one.
+template <std::size_t m>
+typename SolidMesh<m>::Gradients SolidMesh<m>::gradients(const Tet &t) const {
+  const TetFrame frame(point(t[0]), point(t[1]), point(t[2]), point(t[3]));
+  Gradients all;
+  for (std::size_t i = 0; i < m; i++) {
+    const Vec3 g = frame.gradient(vertex(t[0]).place[3 + i], vertex(t[1]).place[3 + i], vertex(t[2]).place[3 + i],
+                                  vertex(t[3]).place[3 + i]);
+    all[i] = std::isfinite(g.x + g.y + g.z) ? g : Vec3(0);
   }
+  return all;
 }
 
 /// What the distance from a plane of the boundary counts as beside the same difference of values. The fewer of the
 /// vertices are on the boundary, the less is gained by moving it; by experience.
-double SolidMesh::weight_of_planes() const {
+template <std::size_t m>
+double SolidMesh<m>::weight_of_planes() const {
   constexpr double least = 20, by_share = 4, most = 2e4;
   double used = 0, boundary = 0;
-  for (std::size_t v = 0; v < vertices.size(); v++) {
+  for (std::size_t v = 0; v < vertices_.size(); v++) {
     used += has_vertex(std::int32_t(v));
     boundary += on_boundary(std::int32_t(v));
   }
   return std::min(least + by_share * std::pow(used / boundary, 6), most);
 }
 
-/// Of the tet's linear function; none for a flat one.
-Vec3 SolidMesh::gradient(const Tet &t) const {
-  const TetFrame frame(point(t[0]), point(t[1]), point(t[2]), point(t[3]));
-  const Vec3 g =
-      frame.gradient(vertex(t[0]).place[3], vertex(t[1]).place[3], vertex(t[2]).place[3], vertex(t[3]).place[3]);
-  return std::isfinite(g.x + g.y + g.z) ? g : Vec3(0);
-}
-
-void SolidMesh::find_quadrics(Job &job) {
-  Array<Vec3> gradients(tets.size(), &job.memory);
+template <std::size_t m>
+void SolidMesh<m>::find_quadrics(Job &job) {
+  Array<Gradients> of_tets(tets.size(), &job.memory);
   job.parallel.for_blocks(tets.size(), 1024, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; t++) gradients[t] = gradient(tets[t]);
+    for (std::size_t t = begin; t < end; t++) of_tets[t] = gradients(tets[t]);
     job.poll(0);
   });
   const double weight = weight_of_planes();
-  job.parallel.for_blocks(vertices.size(), 256, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t v = begin; v < end; v++) vertices[v].quadric = quadric_of(std::int32_t(v), gradients, weight);
+  job.parallel.for_blocks(vertices_.size(), 256, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; v++) vertices_[v].quadric = quadric_of(std::int32_t(v), of_tets, weight);
     job.poll(0);
   });
 }
 
-LocalQuadric SolidMesh::quadric_of(std::int32_t v, Span<const Vec3> gradients, double weight_of_planes) const {
-  LocalQuadric quadric;
-  for (std::int32_t t : tets_of.of(v)) {
-    const Vec3 &g = gradients[std::size_t(t)];
-    quadric.add_square({-g.x, -g.y, -g.z, 1}, 1);
-  }
+template <std::size_t m>
+LocalQuadric<3 + m> SolidMesh<m>::quadric_of(std::int32_t v, Span<const Gradients> gradients,
+                                             double weight_of_planes) const {
+  LocalQuadric<3 + m> quadric;
+  for (std::int32_t t : tets_of.of(v))
+    for (std::size_t i = 0; i < m; i++) {
+      const Vec3 &g = gradients[std::size_t(t)][i];
+      Place upright{-g.x, -g.y, -g.z};
+      upright[3 + i] = 1;
+      quadric.add_square(upright, 1);
+    }
   for (std::int32_t t : triangles_of.of(v)) {
     const Vec3 n = normal(t);
     const double length = glm::length(n);
-    if (length > 0) quadric.add_square({n.x / length, n.y / length, n.z / length, 0}, weight_of_planes);
+    if (length > 0) quadric.add_square({n.x / length, n.y / length, n.z / length}, weight_of_planes);
   }
   return quadric;
 }
 
-bool SolidMesh::touched(const SolidEdge &edge) const {
-  const auto any = [&](const auto &some) {
-    return std::any_of(some.begin(), some.end(), [&](std::int32_t t) { return touched_[std::size_t(t)] == batch_; });
-  };
-  return any(edge.edge_tets) || any(edge.stays_tets) || any(edge.gone_tets);
-}
-
-void SolidMesh::collapse(const SolidEdge &edge, const Vec4 &place) {
-  SolidVertex &stays = vertices[std::size_t(edge.stays)];
-  const SolidVertex &gone = vertex(edge.gone);
-  LocalQuadric sum = stays.quadric.moved(minus(place, stays.place));
+template <std::size_t m>
+void SolidMesh<m>::collapse(const SolidEdge &edge, const Place &place) {
+  Vertex &stays = vertices_[std::size_t(edge.stays)];
+  const Vertex &gone = vertex(edge.gone);
+  LocalQuadric<3 + m> sum = stays.quadric.moved(minus(place, stays.place));
   sum.add(gone.quadric.moved(minus(place, gone.place)));
   stays = {place, sum};
-  const auto touch = [&](const auto &some) {
-    for (std::int32_t t : some) touched_[std::size_t(t)] = batch_;
-  };
-  touch(edge.edge_tets);
-  touch(edge.stays_tets);
-  touch(edge.gone_tets);
-  count -= std::int64_t(edge.edge_tets.size());
-  merge_stars(edge, tets, tets_of);
-  if (on_boundary(edge.gone)) merge_stars(edge, triangles, triangles_of);
-  merge_neighbours(edge);
+  SolidComplex::collapse(edge, point_of(place));
 }
 
-template <class Simplices>
-void SolidMesh::merge_stars(const SolidEdge &edge, Simplices &simplices, StarLists &stars) {
-  list_.clear();
-  for (std::int32_t s : stars.of(edge.gone)) {
-    auto &simplex = simplices[std::size_t(s)];
-    if (simplex[0] < 0) continue;
-    if (std::find(simplex.begin(), simplex.end(), edge.stays) != simplex.end()) {
-      simplex[0] = -1;
-      continue;
-    }
-    *std::find(simplex.begin(), simplex.end(), edge.gone) = edge.stays;
-    list_.push_back(s);
-  }
-  for (std::int32_t s : stars.of(edge.stays))
-    if (simplices[std::size_t(s)][0] >= 0) list_.push_back(s);
-  stars.set(edge.stays, list_);
-  stars.set(edge.gone, {});
-}
-
-void SolidMesh::merge_neighbours(const SolidEdge &edge) {
-  const Span<const std::int32_t> of_stays = neighbours.of(edge.stays);
-  list_.assign(of_stays.begin(), of_stays.end());
-  list_.erase(std::find(list_.begin(), list_.end(), edge.gone));
-  for (std::int32_t u : neighbours.of(edge.gone)) {
-    if (u == edge.stays) continue;
-    if (std::find(of_stays.begin(), of_stays.end(), u) != of_stays.end()) {
-      neighbours.remove(u, edge.gone);
-    } else {
-      neighbours.replace(u, edge.gone, edge.stays);
-      list_.push_back(u);
-    }
-  }
-  neighbours.set(edge.stays, list_);
-  neighbours.set(edge.gone, {});
-}
+template class SolidMesh<1>;
+template class SolidMesh<2>;
+template class SolidMesh<3>;
+template class SolidMesh<4>;
 
 }  // namespace tetlod

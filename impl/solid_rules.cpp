@@ -1,6 +1,6 @@
 #include "solid_rules.hpp"
 
-#include "adaptive_mesh.hpp"
+#include "tet_frame.hpp"
 
 namespace tetlod {
 
@@ -54,7 +54,7 @@ class Ring {
   std::uint32_t neighbours_[most] = {};
 };
 
-bool find_ring(const SolidMesh &mesh, const SolidEdge &edge, Ring &ring) {
+bool find_ring(const SolidComplex &mesh, const SolidEdge &edge, Ring &ring) {
   for (std::int32_t t : edge.edge_tets) {
     std::int32_t p = -1, q = -1;
     for (std::int32_t v : mesh.tets[std::size_t(t)])
@@ -64,7 +64,7 @@ bool find_ring(const SolidMesh &mesh, const SolidEdge &edge, Ring &ring) {
   return true;
 }
 
-bool share_more_than(const SolidMesh &mesh, const Ring &ring, const SolidEdge &edge) {
+bool share_more_than(const SolidComplex &mesh, const Ring &ring, const SolidEdge &edge) {
   const Span<const std::int32_t> of_stays = mesh.neighbours.of(edge.stays), of_gone = mesh.neighbours.of(edge.gone);
   Seen seen;
   for (std::int32_t v : of_stays) seen.add(v);
@@ -79,7 +79,7 @@ struct Chords {
   std::uint32_t of[Ring::most] = {};
 
   template <class Tets>
-  Chords(const SolidMesh &mesh, const Ring &ring, const Tets &tets) {
+  Chords(const SolidComplex &mesh, const Ring &ring, const Tets &tets) {
     for (std::int32_t t : tets) {
       int in_ring[4], size = 0;
       for (std::int32_t v : mesh.tets[std::size_t(t)])
@@ -96,7 +96,7 @@ struct Chords {
   }
 };
 
-bool share_chord(const SolidMesh &mesh, const Ring &ring, const SolidEdge &edge) {
+bool share_chord(const SolidComplex &mesh, const Ring &ring, const SolidEdge &edge) {
   const Chords of_stays(mesh, ring, edge.stays_tets);
   if (!of_stays.any) return false;
   const Chords of_gone(mesh, ring, edge.gone_tets);
@@ -117,7 +117,7 @@ double shape2(const Vec3 *p) {
 }
 
 /// Whether tet t, with its corner v at another place, would turn over, or be flat and flatter than it is.
-bool is_flattened(const SolidMesh &mesh, const Tet &t, std::int32_t v, const Vec3 &place) {
+bool is_flattened(const SolidComplex &mesh, const Tet &t, std::int32_t v, const Vec3 &place) {
   constexpr double limit2 = least_shape * least_shape;
   const Vec3 before[4] = {mesh.point(t[0]), mesh.point(t[1]), mesh.point(t[2]), mesh.point(t[3])};
   const Vec3 after[4] = {t[0] == v ? place : before[0], t[1] == v ? place : before[1], t[2] == v ? place : before[2],
@@ -133,13 +133,13 @@ bool is_flattened(const SolidMesh &mesh, const Tet &t, std::int32_t v, const Vec
 }
 
 template <class Tets>
-bool flattens_some(const SolidMesh &mesh, const Tets &tets, std::int32_t v, const Vec3 &place) {
+bool flattens_some(const SolidComplex &mesh, const Tets &tets, std::int32_t v, const Vec3 &place) {
   return std::any_of(tets.begin(), tets.end(),
                      [&](std::int32_t t) { return is_flattened(mesh, mesh.tets[std::size_t(t)], v, place); });
 }
 
 /// The triangle with the half-edge from -> to; -1 if there is none.
-std::int32_t triangle_at(const SolidMesh &mesh, std::int32_t from, std::int32_t to) {
+std::int32_t triangle_at(const SolidComplex &mesh, std::int32_t from, std::int32_t to) {
   for (std::int32_t t : mesh.triangles_of.of(from)) {
     if (!mesh.has_triangle(t)) continue;
     const Triangle &f = mesh.triangles[std::size_t(t)];
@@ -156,7 +156,7 @@ struct Side {
 using Sides = Few<Side, longest_ring>;
 
 /// Of the triangles that an end has alone; those at the edge go to `at_edge`. False when there are too many.
-bool find_sides(const SolidMesh &mesh, std::int32_t end, std::int32_t other, Sides &sides,
+bool find_sides(const SolidComplex &mesh, std::int32_t end, std::int32_t other, Sides &sides,
                 Array<std::int32_t> &at_edge) {
   for (std::int32_t t : mesh.triangles_of.of(end)) {
     if (!mesh.has_triangle(t)) continue;
@@ -171,7 +171,7 @@ bool find_sides(const SolidMesh &mesh, std::int32_t end, std::int32_t other, Sid
   return true;
 }
 
-bool add_spoke(const SolidMesh &mesh, const Side &side, Star &star) {
+bool add_spoke(const SolidComplex &mesh, const Side &side, Star &star) {
   const std::int32_t beyond = triangle_at(mesh, side.to, side.from);
   if (beyond < 0) return false;
   const Triangle &f = mesh.triangles[std::size_t(side.triangle)];
@@ -186,7 +186,7 @@ bool add_spoke(const SolidMesh &mesh, const Side &side, Star &star) {
 
 }  // namespace
 
-bool look_around(const SolidMesh &mesh, std::int32_t stays, std::int32_t gone, SolidEdge &edge) {
+bool look_around(const SolidComplex &mesh, std::int32_t stays, std::int32_t gone, SolidEdge &edge) {
   edge.stays = stays;
   edge.gone = gone;
   edge.stays_tets.clear();
@@ -202,17 +202,17 @@ bool look_around(const SolidMesh &mesh, std::int32_t stays, std::int32_t gone, S
   return !edge.edge_tets.empty() && !(edge.stays_tets.empty() && edge.gone_tets.empty());
 }
 
-bool breaks_topology(const SolidMesh &mesh, const SolidEdge &edge) {
+bool breaks_topology(const SolidComplex &mesh, const SolidEdge &edge) {
   Ring ring;
   return !find_ring(mesh, edge, ring) || share_more_than(mesh, ring, edge) || share_chord(mesh, ring, edge);
 }
 
-bool flattens(const SolidMesh &mesh, const SolidEdge &edge, const Vec3 &place) {
+bool flattens(const SolidComplex &mesh, const SolidEdge &edge, const Vec3 &place) {
   return (place != mesh.point(edge.stays) && flattens_some(mesh, edge.stays_tets, edge.stays, place)) ||
          flattens_some(mesh, edge.gone_tets, edge.gone, place);
 }
 
-bool look_around_on_boundary(const SolidMesh &mesh, const SolidEdge &edge, const Vec3 &place, Star &star) {
+bool look_around_on_boundary(const SolidComplex &mesh, const SolidEdge &edge, const Vec3 &place, Star &star) {
   star.clear();
   star.centre = place;
   star.centre_id = edge.stays;
@@ -233,7 +233,7 @@ bool look_around_on_boundary(const SolidMesh &mesh, const SolidEdge &edge, const
   return at == sides[0].from;
 }
 
-StepConstraint keeping_volume(const SolidMesh &mesh, const SolidEdge &edge, const Vec3 &from) {
+StepConstraint keeping_volume(const SolidComplex &mesh, const SolidEdge &edge, const Vec3 &from) {
   constexpr double crumpled = 0.01;  // of the area
   StepConstraint constraint;
   double area = 0;

@@ -1,25 +1,26 @@
 // What makes the collapse of an edge of a solid inadmissible: one rule, one function.
 #pragma once
 #include "collapse_rules.hpp"
-#include "solid_mesh.hpp"
+#include "local_quadric.hpp"
+#include "solid_complex.hpp"
 
 namespace tetlod {
 
 /// The tets around an edge. False where there are too many to bother, or nothing would be left of them.
-bool look_around(const SolidMesh &mesh, std::int32_t stays, std::int32_t gone, SolidEdge &edge);
+bool look_around(const SolidComplex &mesh, std::int32_t stays, std::int32_t gone, SolidEdge &edge);
 
 /// The links of the ends share more than the link of the edge [Dey et al. 1999].
-bool breaks_topology(const SolidMesh &mesh, const SolidEdge &edge);
+bool breaks_topology(const SolidComplex &mesh, const SolidEdge &edge);
 
 /// A tet would turn over, or be flat and flatter than it was.
-bool flattens(const SolidMesh &mesh, const SolidEdge &edge, const Vec3 &place);
+bool flattens(const SolidComplex &mesh, const SolidEdge &edge, const Vec3 &place);
 
 /// An edge between vertices of the boundary, as the rules of the surface see its collapse. False where it is none of
 /// the boundary's edges, and where the surface's links share more than that of the edge.
-bool look_around_on_boundary(const SolidMesh &mesh, const SolidEdge &edge, const Vec3 &place, Star &star);
+bool look_around_on_boundary(const SolidComplex &mesh, const SolidEdge &edge, const Vec3 &place, Star &star);
 
 /// What a step of the new vertex, from `from` on, must be to keep the volume [Lindstrom and Turk]; no constraint where
 /// the surface is too crumpled to have a normal.
-StepConstraint keeping_volume(const SolidMesh &mesh, const SolidEdge &edge, const Vec3 &from);
+StepConstraint keeping_volume(const SolidComplex &mesh, const SolidEdge &edge, const Vec3 &from);
 
 }  // namespace tetlod

@@ -1,8 +1,8 @@
 // A pass over the mesh: changes are looked for in parallel, a batch at a time, and made in order, with the same outcome
 // for any number of threads.
 #pragma once
-#include "adaptive_mesh.hpp"
 #include "job.hpp"
+#include "tet_complex.hpp"
 
 namespace tetlod {
 
@@ -46,7 +46,7 @@ Array<std::size_t> batches_of(std::size_t count, std::size_t batch, Memory &memo
 /// The tets of every vertex, as they are when it is made.
 class TetsOfVertices {
  public:
-  TetsOfVertices(const AdaptiveMesh &mesh, Job &job);
+  TetsOfVertices(const TetComplex &mesh, Job &job);
   Span<const std::int32_t> of(std::int32_t v) const {
     const std::uint32_t begin = first_[std::size_t(v)];
     return {tets_.data() + begin, first_[std::size_t(v) + 1] - begin};
@@ -58,7 +58,7 @@ class TetsOfVertices {
 };
 
 /// Orders inner vertices into batches in which no two share a tet, each along the tets.
-Array<std::size_t> batches_apart(const AdaptiveMesh &mesh, const TetsOfVertices &tets, Job &job,
+Array<std::size_t> batches_apart(const TetComplex &mesh, const TetsOfVertices &tets, Job &job,
                                  Array<std::int32_t> &vertices);
 
 }  // namespace tetlod

@@ -56,7 +56,7 @@ class Replay : public testing::TestWithParam<Case> {
 
   std::int64_t edges() const { return std::int64_t(topology.mate.size() / 2); }
 
-  void expect_again(const CollapseLog &log, double sigma, Values values, const Surface &wanted) {
+  void expect_again(const CollapseLog &log, double sigma, MovedValues values, const Surface &wanted) {
     const std::int64_t count = collapses_to(sigma, edges(), log);
     ASSERT_GE(count, 0) << sigma;
     Surface again(host.memory);
@@ -74,12 +74,12 @@ TEST_P(Replay, AsFarAndLessFar) {
   CollapseLog log(host.memory);
   const Surface end = decimated(options, log);
   EXPECT_GT(log.collapses.size(), 10u);
-  expect_again(log, options.sigma, Values::along_edges, end);
-  expect_again(log, options.sigma, Values::logged, end);
+  expect_again(log, options.sigma, MovedValues::along_edges, end);
+  expect_again(log, options.sigma, MovedValues::logged, end);
   for (double way : {0.1, 0.5, 0.9, 1.0}) {
     options.sigma = GetParam().options.sigma + way * (1 - GetParam().options.sigma);
     CollapseLog other(host.memory);
-    expect_again(log, options.sigma, Values::along_edges, decimated(options, other));
+    expect_again(log, options.sigma, MovedValues::along_edges, decimated(options, other));
   }
 }
 
@@ -88,18 +88,18 @@ TEST_P(Replay, OtherValues) {
   CollapseLog log(host.memory), other(host.memory);
   decimated(GetParam().options, log);
   for (std::size_t v = 0; v < original.points.size(); v++) original.scalars[v] = 3 - original.points[v].x;
-  expect_again(log, GetParam().options.sigma, Values::along_edges, decimated(GetParam().options, other));
+  expect_again(log, GetParam().options.sigma, MovedValues::along_edges, decimated(GetParam().options, other));
 }
 
 /// A cost that does sees the same field again.
 TEST_P(Replay, CostThatSeesTheField) {
   DecimateOptions options = GetParam().options;
-  options.field_weight = 0.3;
+  options.field_weight = {0.3};
   CollapseLog log(host.memory);
-  expect_again(log, options.sigma, Values::logged, decimated(options, log));
+  expect_again(log, options.sigma, MovedValues::logged, decimated(options, log));
   options.sigma = 0.8;
   CollapseLog other(host.memory);
-  expect_again(log, options.sigma, Values::logged, decimated(options, other));
+  expect_again(log, options.sigma, MovedValues::logged, decimated(options, other));
 }
 
 TEST_P(Replay, FurtherThanItWent) {

@@ -34,7 +34,7 @@ TEST_F(Decimate, DeviationStaysWithinItsLimit) {
   start_with(random_blob(host.memory, 12, 7));
   for (double field_weight : {0.0, 0.1}) {
     DecimateOptions options{0.05, 0.1};
-    options.field_weight = field_weight;
+    options.field_weight = {field_weight};
     std::int64_t edges = 0;
     for (double limit : {0.0, 0.1, 0.03, 0.01}) {
       options.max_deviation = limit;

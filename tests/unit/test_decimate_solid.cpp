@@ -224,7 +224,7 @@ TEST_F(DecimateSolid, AdmitsWhatTheLinkConditionAllows) {
   for (const Mesh &mesh : meshes) {
     start_with(mesh);
     if (topology.nonmanifold_points > 0 || topology.nonmanifold_edges > 0) continue;
-    const SolidMesh solid(mesh.view(), boundary, 1, host.job);
+    const SolidComplex solid(mesh.view(), boundary, host.job);
     std::vector<Simplex> maximal;
     for (const Tet &t : mesh.tets) maximal.emplace_back(t.begin(), t.end());
     for (const Triangle &t : boundary.triangles) maximal.push_back({t[0], t[1], t[2], cone});
