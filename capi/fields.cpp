@@ -30,15 +30,23 @@ void require_association(std::int32_t association) {
 std::string field_text(const char *name) { return text("field %.100s", name); }
 
 /// The field of that name, or where a new one goes.
-SubmittedField &slot_of(const std::string &name, std::vector<SubmittedField> &fields) {
-  const auto found =
-      std::find_if(fields.begin(), fields.end(), [&](const SubmittedField &field) { return field.name == name; });
+template <class Field>
+Field &slot_of(const std::string &name, std::vector<Field> &fields) {
+  const auto found = std::find_if(fields.begin(), fields.end(), [&](const Field &field) { return field.name == name; });
   return found != fields.end() ? *found : fields.emplace_back();
 }
 
-std::string names_of(const std::vector<CarriedField> &fields) {
+/// A name is one field: where it is another's, that one goes. Cannot fail.
+template <class Field>
+void forget(const std::string &name, std::vector<Field> &fields) {
+  fields.erase(std::remove_if(fields.begin(), fields.end(), [&](const Field &field) { return field.name == name; }),
+               fields.end());
+}
+
+template <class Field>
+std::string names_of(const std::vector<Field> &fields) {
   std::string names;
-  for (const CarriedField &field : fields) names += (names.empty() ? "" : ", ") + field.name;
+  for (const Field &field : fields) names += (names.empty() ? "" : ", ") + field.name;
   return names.empty() ? "none" : names;
 }
 
@@ -59,6 +67,40 @@ const Stencil &stencil_of(tetlod_context &context) {
     find_stencil(original, outcome.options, context.prepared, job, outcome.result);
   }
   return outcome.result.stencil;
+}
+
+void require_weight(const char *name, double weight) {
+  constexpr double most = 1e6;
+  if (!(weight >= 0 && weight <= most))
+    fail(Status::argument, "field %.100s: weight %s is not in [0, %s]", name, number(weight).c_str(),
+         number(most).c_str());
+}
+
+void require_not_the_scalars(const tetlod_context &context, const char *name) {
+  if (context.input.scalars.present && context.scalars_name == name)
+    fail(Status::argument, "field %.100s: the scalars have this name", name);
+}
+
+void require_room(const std::string &name, const std::vector<SteeringField> &fields) {
+  const auto others =
+      std::count_if(fields.begin(), fields.end(), [&](const SteeringField &field) { return field.name != name; });
+  if (others + 1 >= std::ptrdiff_t(most_fields))
+    fail(Status::argument, "field %.100s: %zu fields beside the scalars steer at most, and there are %.400s",
+         name.c_str(), most_fields - 1, names_of(fields).c_str());
+}
+
+/// It takes the place of the one that had its name, among those that steer and those that ride along.
+void put(SubmittedField &&field, Input &input) {
+  input.fields.reserve(input.fields.size() + 1);
+  forget(field.name, input.steering);
+  slot_of(field.name, input.fields) = std::move(field);
+}
+
+void put(SteeringField &&field, Input &input) {
+  require_room(field.name, input.steering);
+  input.steering.reserve(input.steering.size() + 1);
+  forget(field.name, input.fields);
+  slot_of(field.name, input.steering) = std::move(field);
 }
 
 void require_same_components(const StridedArray &original, const StridedArray &simplified) {
@@ -83,9 +125,21 @@ tetlod_status tetlod_submit_field(tetlod_context *handle, const char *name, int3
     field.values = checked_source(values, {called.c_str(), Shape::any_number, Shape::reals});
     field.association = Association(association);
     field.name = name;
-    std::vector<SubmittedField> &fields = context.input.fields;
-    fields.reserve(fields.size() + 1);
-    slot_of(field.name, fields) = std::move(field);
+    put(std::move(field), context.input);
+  });
+}
+
+tetlod_status tetlod_submit_steering(tetlod_context *handle, const char *name, double weight,
+                                     const tetlod_array *values) {
+  return entry(handle, [&](tetlod_context &context) {
+    require_name(name);
+    require_weight(name, weight);
+    require_not_the_scalars(context, name);
+    const StridedArray checked = checked_source(values, {field_text(name).c_str(), 1, Shape::reals});
+    if (weight > 0)
+      put(SteeringField{name, weight, checked}, context.input);
+    else
+      put(SubmittedField{name, Association::point, checked}, context.input);
   });
 }
 

@@ -20,6 +20,10 @@ void require_a_value_a_point(const tetlod_context &context) {
 }
 
 void require_a_tuple_each(const Input &input) {
+  for (const SteeringField &field : input.steering)
+    if (field.values.tuples != input.xyz[0].tuples)
+      fail(Status::argument, "field %.100s: %" PRId64 " values for %" PRId64 " points", field.name.c_str(),
+           field.values.tuples, input.xyz[0].tuples);
   for (const SubmittedField &field : input.fields) {
     const bool of_cells = field.association == Association::cell;
     const std::int64_t count = of_cells ? input.tets.tuples : input.xyz[0].tuples;

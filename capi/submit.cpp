@@ -61,6 +61,8 @@ tetlod_status tetlod_submit_scalars(tetlod_context *handle, const char *name, co
   return entry(handle, [&](tetlod_context &context) {
     const StridedArray scalars = checked_source(values, {"scalars", 1, Shape::reals});
     std::string copy(name ? name : "");
+    for (const SteeringField &field : context.input.steering)
+      if (field.name == copy) fail(Status::argument, "scalars: field %.100s steers by this name already", name);
     context.input.scalars = scalars;
     context.scalars_name.swap(copy);
   });

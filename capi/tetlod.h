@@ -162,7 +162,8 @@ typedef struct tetlod_run_report {
   double scalar_min, scalar_max; /* of the original's values */
   int64_t inserted_points;       /* inside, after the remeshing (TETLOD_OPT_TARGET_RATIO) */
   double max_error;     /* with TETLOD_OPT_TARGET_RATIO or _MAX_ERROR: largest error at the original vertices, over the
-                           range; those outside the result count with TETLOD_OPT_MAX_ERROR alone */
+                           range, of any field that steers; those outside the result count with
+                           TETLOD_OPT_MAX_ERROR alone */
   double max_deviation; /* largest distance of a boundary vertex, of the original or of the result, from the other's
                            boundary, over the diagonal of the bounding box */
   int64_t reused_tets;  /* taken over from earlier runs, see tetlod_run: tets_in where the mesh's checks and boundary
@@ -314,9 +315,10 @@ enum {
                                    TETLOD_EFFORT_ACCURATE, the default: in 4 to 12 more, which also remove and insert
                                    vertices */
   TETLOD_OPT_MAX_ERROR = 22,    /* real, "max-error": bound of the error at every original vertex, as a fraction of the
-                                   values' range; one that lies outside the result is compared at the nearest point of
-                                   its boundary. Begins with target-ratio (0: 0.05), and takes what it needs beyond it;
-                                   0, the default: none. Where it cannot be held: TETLOD_ERR_MAX_ERROR */
+                                   values' range, for every field that steers; one that lies outside the result is
+                                   compared at the nearest point of its boundary. Begins with target-ratio (0: 0.05),
+                                   and takes what it needs beyond it; 0, the default: none. Where it cannot be held:
+                                   TETLOD_ERR_MAX_ERROR */
   TETLOD_OPT_MAX_DEVIATION = 23 /* real, "max-deviation": bound of the distance between the boundaries of original and
                                    result, measured at the vertices of both, as a fraction of the diagonal; more of the
                                    boundary is kept then than sigma or the target ratio says. 0, the default: none */
@@ -346,7 +348,7 @@ TETLOD_API tetlod_status tetlod_submit_points_xyz(tetlod_context *context, const
  * mixed. */
 TETLOD_API tetlod_status tetlod_submit_tets(tetlod_context *context, const tetlod_array *corners, int32_t index_base);
 /* The field that steers the simplification: a value a point, 1 component, float32 or float64. name is copied and may be
- * NULL. */
+ * NULL, but not that of a field of tetlod_submit_steering. */
 TETLOD_API tetlod_status tetlod_submit_scalars(tetlod_context *context, const char *name, const tetlod_array *values);
 enum {
   TETLOD_POINT_FIELD = 0, /* a tuple a point */
@@ -358,6 +360,16 @@ enum {
  * many tuples as points or tets, which tetlod_run looks at. Since 0.1, as all of these. */
 TETLOD_API tetlod_status tetlod_submit_field(tetlod_context *context, const char *name, int32_t association,
                                              const tetlod_array *values);
+/* A further field that steers, beside the scalars: a value a point, 1 component, float32 or float64; 3 at most.
+ * Whatever looks at the scalars looks at all of them: an error of this field counts weight times its part of the
+ * field's own range, one of the scalars its part of theirs. The samples of the paper [3.1] follow the largest variation
+ * of any, as weighted; TETLOD_OPT_MAX_ERROR holds for each, relative to its own range, whatever its weight. weight: 0
+ * to 1e6; 0: the field rides along, as by tetlod_submit_field. name is copied, not empty, and not that of the scalars:
+ * a name is one field, and what is submitted last under it, here or by tetlod_submit_field, replaces what was. The
+ * result has its values, fitted or interpolated as the scalars, for tetlod_fetch_field. TETLOD_ERR_ARGUMENT also for a
+ * weight out of its bounds (NaN is) and a fourth field. */
+TETLOD_API tetlod_status tetlod_submit_steering(tetlod_context *context, const char *name, double weight,
+                                                const tetlod_array *values);
 enum {
   TETLOD_FLAG_KEEP = 1, /* the vertex survives, with its place and value */
   TETLOD_FLAG_LOCK = 2  /* the same, for an interface of partitions: triangles and edges of the boundary between locked
@@ -387,7 +399,8 @@ TETLOD_API tetlod_status tetlod_estimate_memory(tetlod_context *context, uint64_
  * The result replaces the previous one on success alone.
  *
  * TETLOD_ERR_STATE          points, tets or scalars are missing
- * TETLOD_ERR_ARGUMENT       as many scalars as points are needed; of fields as many tuples as points or tets
+ * TETLOD_ERR_ARGUMENT       as many scalars as points are needed, and values of what steers beside them; of other
+ *                           fields as many tuples as points or tets
  * TETLOD_ERR_MESH_*         see the enumeration
  * TETLOD_ERR_MEMORY_LIMIT, TETLOD_ERR_CANCELLED, TETLOD_ERR_TIME_LIMIT
  * TETLOD_ERR_REMESH, TETLOD_ERR_BACKEND_MISSING
@@ -434,11 +447,12 @@ TETLOD_API tetlod_status tetlod_fetch_tets(const tetlod_context *context, int32_
 TETLOD_API tetlod_status tetlod_fetch_boundary(const tetlod_context *context, int32_t index_base, tetlod_array *dst);
 TETLOD_API tetlod_status tetlod_fetch_scalars(const tetlod_context *context, tetlod_array *dst);
 /* A field that was submitted before the last successful tetlod_run, on its result; dst has as many components as it.
- * A point field: a tuple a point, the mean of original values that tetlod_fetch_stencil tells; never beyond them, so
- * that the field's range is kept. A cell field: a tuple a tet, the value of the original tet that holds the tet's
- * centroid, or for a centroid outside of the original of the tet at the nearest point of its boundary: no value is made
- * up, so that numbers of regions and materials stay what they are. The result keeps its fields whatever is submitted
- * and however later runs fail. TETLOD_ERR_ARGUMENT: the run carried no such field, or other components. */
+ * One that steered: its value at each point. Of those that rode along, a point field: a tuple a point, the mean of
+ * original values that tetlod_fetch_stencil tells; never beyond them, so that the field's range is kept. A cell field:
+ * a tuple a tet, the value of the original tet that holds the tet's centroid, or for a centroid outside of the original
+ * of the tet at the nearest point of its boundary: no value is made up, so that numbers of regions and materials stay
+ * what they are. The result keeps its fields whatever is submitted and however later runs fail. TETLOD_ERR_ARGUMENT:
+ * the run carried no such field, or other components. */
 TETLOD_API tetlod_status tetlod_fetch_field(const tetlod_context *context, const char *name, tetlod_array *dst);
 /* Each vertex of the result as a mean of original ones: ids (4 components, int32 or int64, numbered from index_base)
  * and their barycentric weights (4 components, float32 or float64), none negative, adding up to 1 within rounding.

@@ -44,9 +44,13 @@ bool same(const StridedArray &a, const StridedArray &b) {
          a.tuple_stride == b.tuple_stride && a.component_stride == b.component_stride && a.data == b.data;
 }
 
+bool same(const SteeringField &a, const SteeringField &b) { return a.name == b.name && same(a.values, b.values); }
+
 bool same(const Input &a, const Input &b) {
   return same(a.xyz[0], b.xyz[0]) && same(a.xyz[1], b.xyz[1]) && same(a.xyz[2], b.xyz[2]) && same(a.tets, b.tets) &&
-         a.index_base == b.index_base && same(a.scalars, b.scalars);
+         a.index_base == b.index_base && same(a.scalars, b.scalars) &&
+         std::equal(a.steering.begin(), a.steering.end(), b.steering.begin(), b.steering.end(),
+                    [](const SteeringField &f, const SteeringField &g) { return same(f, g); });
 }
 
 void require_submitted(const StridedArray &array, const char *name) {

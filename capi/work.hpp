@@ -10,9 +10,9 @@ void require_mesh(const Input &input);
 /// The same for scalars, too.
 void require_submitted(const Input &input);
 
-/// The mesh and the scalars of the run that gave the outcome; throws Status::state when others are submitted now. A
-/// result compared with another input gives numbers that mean nothing, and nobody would notice. Flags and fields are
-/// left out: they are not needed again, and those of the run may be gone.
+/// The mesh and the fields that steered the run that gave the outcome; throws Status::state when others are submitted
+/// now. A result compared with another input gives numbers that mean nothing, and nobody would notice. Flags and fields
+/// are left out: they are not needed again, and those of the run may be gone.
 Input original_of(const Outcome &outcome, const Input &now);
 
 /// The work that begins here is what tetlod_cancel means from now on.

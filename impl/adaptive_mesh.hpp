@@ -46,10 +46,15 @@ class AdaptiveMesh : public TetComplex {
     }
     return r;
   }
-  /// What residuals count: their sum of squares, each field's by its weight.
+  /// Residuals as they count beside each other, and the sum of squares of that.
+  Values<m> weighted(Values<m> r) const {
+    for (std::size_t i = 1; i < m; i++) r[i] *= scales.weighted[i];
+    return r;
+  }
   double square(const Values<m> &r) const {
-    double sum = r[0] * r[0];
-    for (std::size_t i = 1; i < m; i++) sum += (scales.weighted[i] * r[i]) * (scales.weighted[i] * r[i]);
+    const Values<m> counts = weighted(r);
+    double sum = counts[0] * counts[0];
+    for (std::size_t i = 1; i < m; i++) sum += counts[i] * counts[i];
     return sum;
   }
 

@@ -12,7 +12,7 @@ constexpr std::size_t many = 1 << 15;  // tets between two polls of passes that 
 template <std::size_t m>
 struct Normal {
   double w[4][4]{};
-  Values<m> r[4]{};  ///< weights times residual
+  double r[m][4]{};  ///< of each field, weights times residual, as it counts
   ValueRange<m> range;
 };
 
@@ -24,11 +24,11 @@ Normal<m> normal_of(const AdaptiveMesh<m> &mesh, std::int32_t t) {
     const Probe<m> &probe = mesh.probes[std::size_t(p)];
     double w[4];
     frame.weights(probe.point, w);
-    const Values<m> r = mesh.residual(mesh.tets[std::size_t(t)], w, probe);
-    for (int i = 0; i < 4; i++) {
+    const Values<m> r = mesh.weighted(mesh.residual(mesh.tets[std::size_t(t)], w, probe));
+    for (int i = 0; i < 4; i++)
       for (int j = 0; j < 4; j++) n.w[i][j] += w[i] * w[j];
-      for (std::size_t k = 0; k < m; k++) n.r[i][k] += w[i] * r[k];
-    }
+    for (std::size_t k = 0; k < m; k++)
+      for (int i = 0; i < 4; i++) n.r[k][i] += w[i] * r[k];
     n.range.add(probe.value);
   });
   return n;
@@ -60,7 +60,8 @@ class Fit {
     for (std::size_t t = 0; t < normals_.size(); t++) {
       poll_at(t);
       if (mesh_.alive(std::int32_t(t)))
-        for (std::size_t k = 0; k < 4; k++) subtract(normals_[t].r[k], r[std::size_t(mesh_.tets[t][k])]);
+        for (std::size_t k = 0; k < m; k++)
+          for (std::size_t i = 0; i < 4; i++) r[std::size_t(mesh_.tets[t][i])][k] -= normals_[t].r[k][i];
     }
     leave_kept(r);
     p.assign(r.begin(), r.end());
@@ -100,10 +101,6 @@ class Fit {
     return quotient;
   }
 
-  static void subtract(const Values<m> &what, Values<m> &from) {
-    for (std::size_t k = 0; k < m; k++) from[k] -= what[k];
-  }
-
   void poll_at(std::size_t t) const {
     if (t % many == 0) job_.poll(0.5);
   }
@@ -131,12 +128,12 @@ class Fit {
       poll_at(t);
       if (!mesh_.alive(std::int32_t(t))) continue;
       const Tet &tet = mesh_.tets[t];
-      for (std::size_t i = 0; i < 4; i++) {
-        Values<m> sum{};
-        for (std::size_t j = 0; j < 4; j++)
-          for (std::size_t k = 0; k < m; k++) sum[k] += normals_[t].w[i][j] * x[std::size_t(tet[j])][k];
-        for (std::size_t k = 0; k < m; k++) image[std::size_t(tet[i])][k] += sum[k];
-      }
+      for (std::size_t k = 0; k < m; k++)
+        for (std::size_t i = 0; i < 4; i++) {
+          double sum = 0;
+          for (std::size_t j = 0; j < 4; j++) sum += normals_[t].w[i][j] * x[std::size_t(tet[j])][k];
+          image[std::size_t(tet[i])][k] += sum;
+        }
     }
     leave_kept(image);
   }
@@ -158,7 +155,7 @@ class Fit {
     }
     for (std::size_t v = 0; v < change.size(); v++) {
       Values<m> values = mesh_.values[v];
-      for (std::size_t k = 0; k < m; k++) values[k] += change[v][k];
+      for (std::size_t k = 0; k < m; k++) values[k] += change[v][k] / mesh_.scales.weighted[k];
       mesh_.values[v] = seen[v].clamp(values);
     }
   }

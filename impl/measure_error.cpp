@@ -110,7 +110,7 @@ void add_sample(const MeshView &mesh, std::size_t tet, std::uint64_t key, const 
   for (std::size_t k = 0; k < 4; k++) {
     const auto v = std::size_t(mesh.tets[tet][k]);
     p += weights[k] / total * mesh.points[v];
-    value += weights[k] / total * mesh.scalars[v];
+    value += weights[k] / total * mesh.scalars[v * mesh.fields];
   }
   tally.add(field, p, value);
 }
@@ -124,7 +124,7 @@ FieldError measure_error(const MeshView &original, double range, const TetMesh &
   for (const Tet &t : original.tets)
     for (std::int32_t v : t) used[std::size_t(v)] = 1;
   const Tally at_vertices = tally_blocks(original.points.size(), job, 0, [&](std::size_t v, Tally &tally) {
-    if (used[v]) tally.add(field, original.points[v], original.scalars[v]);
+    if (used[v]) tally.add(field, original.points[v], original.scalars[v * original.fields]);
   });
   const auto samples = std::uint64_t(samples_per_tet);
   const Tally inside = tally_blocks(samples ? original.tets.size() : 0, job, 0.5, [&](std::size_t t, Tally &tally) {

@@ -1,4 +1,4 @@
-// 4  The field error of a result, as the paper estimates it, and histograms of the values.
+// 4  The field error of a result, of the scalars, as the paper estimates it, and histograms of the values.
 #pragma once
 #include <cstdint>
 

@@ -16,13 +16,12 @@ constexpr double lengths[] = {1, 0.4, 0.15};
 /// A star must not keep more of its error, and what is expected to gain less than this is not tried.
 constexpr double least_part = 0.999, least_gain = 0.005;
 
-/// Where a probe will be.
-struct Home {
-  std::int32_t probe, tet;
-};
-
 template <std::size_t m>
 struct Move {
+  /// Where a probe will be.
+  struct Home {
+    std::int32_t probe, tet;
+  };
   using allocator_type = std::pmr::polymorphic_allocator<Home>;
   explicit Move(allocator_type memory) : homes(memory) {}
 
@@ -146,12 +145,12 @@ class MoveFinder {
         for (std::size_t k = 0; k < m; k++) wr[k] += w[corner] * r[k];
         step.range.add(probe.value);
       });
+      wr = mesh_.weighted(wr);
       for (std::size_t k = 0; k < m; k++) {
         const Vector<3 + m> j = jacobian(t, frame, k);
-        const double jr = mesh_.scales.weighted[k] * wr[k];
         for (std::size_t row = 0; row < 3 + m; row++) {
           for (std::size_t column = 0; column <= row; column++) a[entry_of(row, column)] += ww * j[row] * j[column];
-          down[row] -= jr * j[row];
+          down[row] -= wr[k] * j[row];
         }
       }
     }

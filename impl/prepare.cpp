@@ -73,7 +73,7 @@ void add_values(const MeshView &mesh, std::size_t v, Ranges &ranges) {
 
 /// Away from the ends of doubles, so that what is scaled by it can be scaled back.
 double sane_scale(double scale) {
-  constexpr double least = 1e-100, most = 1e100;
+  constexpr double least = 1e-250, most = 1e250;
   return scale > least ? std::min(scale, most) : least;
 }
 

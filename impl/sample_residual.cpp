@@ -38,17 +38,14 @@ struct Moments {
     }
   }
 
-  /// The squares that the best linear functions leave, as they count.
-  double residual(const FieldScales &scales) const {
+  /// The squares that the best linear functions leave.
+  double residual() const {
     if (n < 2) return 0;
     double a[6];
     for (int i = 0, e = 0; i < 3; i++)
       for (int j = 0; j <= i; j++, e++) a[e] = xx[e] - x[i] * x[j] / n;
     double sum = 0;
-    for (std::size_t k = 0; k < m; k++) {
-      const double scale = scales.weighted[k];
-      sum += scale * (scale * std::max(left_of(k, a), 0.0));
-    }
+    for (std::size_t k = 0; k < m; k++) sum += std::max(left_of(k, a), 0.0);
     return sum;
   }
 
@@ -142,10 +139,10 @@ class ResidualTree {
  private:
   static bool less(const Leaf &a, const Leaf &b) { return a.error != b.error ? a.error < b.error : a.begin > b.begin; }
   const Vec3 &point(std::int32_t v) const { return mesh_.points[std::size_t(v)]; }
-  /// Beside another's.
-  Values<m> value(std::int32_t v, const Values<m> &offset) const {
+  /// Beside another's, as they count.
+  Values<m> values(std::int32_t v, const Values<m> &offset) const {
     Values<m> values = values_[std::size_t(v)];
-    for (std::size_t k = 0; k < m; k++) values[k] -= offset[k];
+    for (std::size_t k = 0; k < m; k++) values[k] = mesh_.scales.weighted[k] * (values[k] - offset[k]);
     return values;
   }
 
@@ -167,8 +164,8 @@ class ResidualTree {
     const Vec3 centre = 0.5 * (l.box.low + l.box.high);
     const Values<m> offset = begin < end ? values_[std::size_t(vertices_[begin])] : Values<m>{};
     Moments<m> sums;
-    for (std::size_t i = begin; i < end; i++) sums.add(point(vertices_[i]) - centre, value(vertices_[i], offset));
-    l.error = sums.residual(mesh_.scales) + (end - begin <= few ? mean_ * double(end - begin) : 0);
+    for (std::size_t i = begin; i < end; i++) sums.add(point(vertices_[i]) - centre, values(vertices_[i], offset));
+    l.error = sums.residual() + (end - begin <= few ? mean_ * double(end - begin) : 0);
     return l;
   }
 
@@ -182,13 +179,13 @@ class ResidualTree {
     for (std::size_t i = l.begin; i < l.end; i++) {
       const Vec3 p = point(vertices_[i]) - centre;
       for (int k = 0; k < 3; k++)
-        if (thinnest * extent[k] >= longest) sides[k][p[k] >= 0].add(p, value(vertices_[i], offset));
+        if (thinnest * extent[k] >= longest) sides[k][p[k] >= 0].add(p, values(vertices_[i], offset));
     }
     int axis = -1;
     double least = std::numeric_limits<double>::infinity();
     for (int k = 0; k < 3; k++) {
       if (thinnest * extent[k] < longest || !(extent[k] > 0)) continue;
-      const double error = sides[k][0].residual(mesh_.scales) + sides[k][1].residual(mesh_.scales);
+      const double error = sides[k][0].residual() + sides[k][1].residual();
       if (error < least) {
         least = error;
         axis = k;

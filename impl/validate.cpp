@@ -76,10 +76,19 @@ class Inspector {
       } else if (!finite(points_[v])) {
         found_.nonfinite_points.add(name);
         used_[v] = 0;
-      } else if (std::int64_t(v) < input_.scalars.tuples && !std::isfinite(input_.scalars.real(std::int64_t(v), 0))) {
+      } else if (!has_finite_values(std::int64_t(v))) {
         found_.nonfinite_values.add(name);
       }
     }
+  }
+
+  bool has_finite_values(std::int64_t v) const {
+    const auto is_finite = [v](const StridedArray &values) {
+      return v >= values.tuples || std::isfinite(values.real(v, 0));
+    };
+    return is_finite(input_.scalars) &&
+           std::all_of(input_.steering.begin(), input_.steering.end(),
+                       [&](const SteeringField &field) { return is_finite(field.values); });
   }
 
   static bool finite(const Vec3 &p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }

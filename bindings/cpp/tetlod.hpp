@@ -196,6 +196,9 @@ class Context {
   void submit_field(const std::string &name, std::int32_t association, const Source &values) {
     require(tetlod_submit_field(handle_, name.c_str(), association, &values.array));
   }
+  void submit_steering(const std::string &name, double weight, const Source &values) {
+    require(tetlod_submit_steering(handle_, name.c_str(), weight, &values.array));
+  }
   void submit_point_flags(const Source &flags) { require(tetlod_submit_point_flags(handle_, &flags.array)); }
   void clear() { require(tetlod_clear(handle_)); }
 

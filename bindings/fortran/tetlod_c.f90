@@ -158,6 +158,13 @@ module tetlod_c
       type(tetlod_array), intent(in) :: values
       integer(c_int32_t) :: status
     end function
+    function c_submit_steering(context, name, weight, values) result(status) bind(C, name="tetlod_submit_steering")
+      import
+      type(c_ptr), value :: context, name
+      real(c_double), value :: weight
+      type(tetlod_array), intent(in) :: values
+      integer(c_int32_t) :: status
+    end function
     function c_submit_field(context, name, association, values) result(status) bind(C, name="tetlod_submit_field")
       import
       type(c_ptr), value :: context, name

@@ -1,9 +1,10 @@
-! Fields beside the one that steers: they ride along with a run, or follow its result later.
+! Fields beside the scalars: they steer, too, or ride along with a run, or follow its result later.
 module tetlod_fields_of_result
   use, intrinsic :: iso_c_binding, only: c_char, c_int32_t, c_loc
   use, intrinsic :: iso_fortran_env, only: int8, int32, int64, real32, real64
   use tetlod_arrays, only: array_of
-  use tetlod_c, only: c_fetch_field, c_fetch_stencil, c_submit_field, c_submit_point_flags, c_transfer
+  use tetlod_c, only: c_fetch_field, c_fetch_stencil, c_submit_field, c_submit_point_flags, c_submit_steering, &
+    c_transfer
   use tetlod_submission, only: tetlod_input
   use tetlod_text, only: c_text
   use tetlod_types, only: tetlod_array
@@ -13,11 +14,13 @@ module tetlod_fields_of_result
   type, extends(tetlod_input), public :: tetlod_fields
   contains
     generic :: submit_field => submit_field_r32, submit_field_r64
+    generic :: submit_steering => submit_steering_r32, submit_steering_r64
     generic :: fetch_field => fetch_field_r32, fetch_field_r64
     generic :: fetch_stencil => fetch_stencil_i32, fetch_stencil_i64
     generic :: transfer => transfer_r32, transfer_r64
     procedure :: submit_point_flags
     procedure, private :: submit_field_r32, submit_field_r64, fetch_field_r32, fetch_field_r64
+    procedure, private :: submit_steering_r32, submit_steering_r64
     procedure, private :: fetch_stencil_i32, fetch_stencil_i64, transfer_r32, transfer_r64
   end type
 
@@ -30,6 +33,19 @@ contains
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
     call this%settle(c_submit_point_flags(this%c_handle(), array_of(flags)), stat, errmsg)
+  end subroutine
+
+  ! values(n): a further field that steers, its errors weighted by weight (0 to 1e6); borrowed.
+  subroutine submit_steering_r32(this, name, weight, values, stat, errmsg)
+    class(tetlod_fields), intent(inout) :: this
+    character(len=*), intent(in) :: name
+    real(real64), intent(in) :: weight
+    real(real32), intent(in), target :: values(:)
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    character(kind=c_char), target :: text(len_trim(name) + 1)
+    text = c_text(name)
+    call this%settle(c_submit_steering(this%c_handle(), c_loc(text), weight, array_of(values)), stat, errmsg)
   end subroutine
 
   ! values(components, n), a tuple a point or a tet by association: TETLOD_POINT_FIELD, TETLOD_CELL_FIELD; borrowed.
@@ -69,6 +85,19 @@ contains
     type(tetlod_array) :: dst
     dst = array_of(simplified)
     call this%settle(c_transfer(this%c_handle(), array_of(original), dst), stat, errmsg)
+  end subroutine
+
+  ! values(n): a further field that steers, its errors weighted by weight (0 to 1e6); borrowed.
+  subroutine submit_steering_r64(this, name, weight, values, stat, errmsg)
+    class(tetlod_fields), intent(inout) :: this
+    character(len=*), intent(in) :: name
+    real(real64), intent(in) :: weight
+    real(real64), intent(in), target :: values(:)
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    character(kind=c_char), target :: text(len_trim(name) + 1)
+    text = c_text(name)
+    call this%settle(c_submit_steering(this%c_handle(), c_loc(text), weight, array_of(values)), stat, errmsg)
   end subroutine
 
   ! values(components, n), a tuple a point or a tet by association: TETLOD_POINT_FIELD, TETLOD_CELL_FIELD; borrowed.
