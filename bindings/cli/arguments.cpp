@@ -92,11 +92,27 @@ int32_t preset_named(const std::string &name) {
   throw CLI::ValidationError("--preset", "there is no preset '" + name + "' (there are: paper, fast, accurate)");
 }
 
+// NAME or NAME:WEIGHT; a name may have colons of its own.
+std::pair<std::string, double> weighted_name(const std::string &text) {
+  const std::size_t colon = text.rfind(':');
+  double weight = 1;
+  if (colon == std::string::npos || !CLI::detail::lexical_cast(text.substr(colon + 1), weight)) return {text, 1};
+  return {text.substr(0, colon), weight};
+}
+
 void add_options(CLI::App &app, Arguments &arguments) {
   app.add_option("INPUT", arguments.input, "the mesh: .vtu, .vtk or .pvtu")->required();
   app.add_option("OUTPUT", arguments.output, "the simplified mesh: .vtu or .vtk")->required();
   app.add_option("--field", arguments.field, "point data that steers [the active scalars, else the first]")
       ->type_name("NAME");
+  const auto steer = [&arguments](const std::vector<std::string> &fields) {
+    for (const std::string &field : fields) arguments.steer.push_back(weighted_name(field));
+  };
+  app.add_option_function<std::vector<std::string>>("--steer", steer,
+                                                    "further point data that steers, its errors times WEIGHT [1]")
+      ->type_name("NAME[:WEIGHT]")
+      ->expected(1)
+      ->take_all();
   const auto preset = [&arguments](const std::string &name) { arguments.preset = preset_named(name); };
   app.add_option_function<std::string>("--preset", preset, "sets the other options: paper, fast, accurate")
       ->type_name("NAME");

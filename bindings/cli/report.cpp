@@ -113,6 +113,8 @@ void write_report(const std::string &path, const Arguments &arguments, const std
                {"field", field},
                {"scalar_min", run.scalar_min},
                {"scalar_max", run.scalar_max}};
+  json["steering"] = Json::object();  // beside the field, with weights
+  for (const auto &[name, weight] : arguments.steer) json["steering"][name] = weight;
   json["options"] = options_json(context);
   put_counts(json, run);
   put_boundary(json, run);

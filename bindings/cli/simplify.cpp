@@ -20,6 +20,7 @@ vtkSmartPointer<vtkTetlodSimplify> make_filter(const Arguments &arguments, VtkMe
   filter->MeasureErrorOn();
   if (arguments.preset) filter->SetPreset(*arguments.preset);
   for (const auto &[option, value] : arguments.numbers) filter->SetOption(tetlod_option_name(option), value);
+  for (const auto &[name, weight] : arguments.steer) filter->AddSteeringArray(name.c_str(), weight);
   std::vector<std::string> notes;
   messages.check("", notes, kWrongUsage);
   return filter;

@@ -1,4 +1,4 @@
-// The arrays of a grid that ride along with the steering field.
+// The arrays of a grid beside the steering field: they ride along, or steer, too.
 #pragma once
 
 #include <vtkDataArray.h>
@@ -20,6 +20,7 @@ struct CarriedArray {
   int type;             // VTK's, of the result's array
   int attribute;        // vtkDataSetAttributes::AttributeTypes that it is active as; -1: none
   LentArray reals;      // what the library gets: a tuple a point or a tet
+  double weight = 0;    // positive: it steers
 
   // A grid may have a point and a cell array of one name; the library's fields have one each.
   std::string key() const { return (association == TETLOD_CELL_FIELD ? "cell " : "point ") + name; }

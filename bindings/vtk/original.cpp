@@ -43,6 +43,14 @@ vtkUnsignedCharArray *flags_array(vtkUnstructuredGrid &grid, vtkInformation *wan
   return flags;
 }
 
+// The array of others that steers, too.
+CarriedArray &further_array(vtkUnstructuredGrid &grid, const std::string &name, std::vector<CarriedArray> &others) {
+  steering_field(grid, name);
+  for (CarriedArray &other : others)
+    if (other.association == TETLOD_POINT_FIELD && other.name == name) return other;
+  throw std::runtime_error("field '" + name + "' cannot steer beside others: it is the first, or has no meaning here");
+}
+
 // Separate coordinates are submitted as such.
 LentArray lend_points(vtkDataArray *points) {
   if (lend_component(points, 0).array.data != nullptr) return {};
@@ -61,10 +69,17 @@ void submit_points(tetlod::Context &context, const Original &original) {
   require(tetlod_submit_points_xyz(context.get(), &x.array, &y.array, &z.array), context);
 }
 
+void submit_other(tetlod::Context &context, const CarriedArray &other) {
+  const tetlod_array *const values = &other.reals.array;
+  require(other.weight > 0 ? tetlod_submit_steering(context.get(), other.key().c_str(), other.weight, values)
+                           : tetlod_submit_field(context.get(), other.key().c_str(), other.association, values),
+          context);
+}
+
 }  // namespace
 
-Original original_of(vtkUnstructuredGrid *input, vtkInformation *steering, vtkInformation *flags,
-                     std::vector<std::string> &notes) {
+Original original_of(vtkUnstructuredGrid *input, vtkInformation *steering, const std::vector<WeightedArray> &further,
+                     vtkInformation *flags, std::vector<std::string> &notes) {
   Original original;
   original.grid = without_ghosts(input);
   vtkDataArray *field = steering_array(*original.grid, steering);
@@ -75,6 +90,8 @@ Original original_of(vtkUnstructuredGrid *input, vtkInformation *steering, vtkIn
   original.arrays.steering = field->GetName() != nullptr ? field->GetName() : "scalars";
   original.arrays.steering_type = is_real(field->GetDataType()) ? field->GetDataType() : VTK_DOUBLE;
   original.arrays.others = carried_arrays(*original.grid, field, original.tets, notes);
+  for (const WeightedArray &array : further)
+    further_array(*original.grid, array.name, original.arrays.others).weight = array.weight;
   return original;
 }
 
@@ -83,8 +100,7 @@ void submit(tetlod::Context &context, const Original &original) {
   submit_points(context, original);
   require(tetlod_submit_tets(context.get(), &corners, 0), context);
   require(tetlod_submit_scalars(context.get(), original.arrays.steering.c_str(), &original.values.array), context);
-  for (const CarriedArray &other : original.arrays.others)
-    require(tetlod_submit_field(context.get(), other.key().c_str(), other.association, &other.reals.array), context);
+  for (const CarriedArray &other : original.arrays.others) submit_other(context, other);
   if (original.flags == nullptr) return;
   const tetlod_array flags = room_in(original.flags, 1);
   require(tetlod_submit_point_flags(context.get(), &flags), context);

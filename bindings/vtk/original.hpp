@@ -26,10 +26,16 @@ struct Original {
   OriginalArrays arrays;
 };
 
+// A point array that steers beside the first.
+struct WeightedArray {
+  std::string name;
+  double weight;
+};
+
 // steering and flags are what SetInputArrayToProcess was told of input arrays 0 and 1, null where it was not. Throws
 // std::runtime_error for an array that is not there and for cells that cannot be split; notes tell what is left out.
-Original original_of(vtkUnstructuredGrid *input, vtkInformation *steering, vtkInformation *flags,
-                     std::vector<std::string> &notes);
+Original original_of(vtkUnstructuredGrid *input, vtkInformation *steering, const std::vector<WeightedArray> &further,
+                     vtkInformation *flags, std::vector<std::string> &notes);
 
 // Throws tetlod::Error. The original must live until the context is cleared.
 void submit(tetlod::Context &context, const Original &original);

@@ -56,6 +56,7 @@ bool is_integer(int32_t option) { return tetlod::option_bounds(option).is_intege
 
 struct vtkTetlodSimplify::Internals {
   tetlod::Context context;
+  std::vector<tetlod_vtk::WeightedArray> steering;  // beside input array 0
   tetlod_error_report error{};
   double seconds_of_run = 0, seconds_of_measuring = 0;
 };
@@ -107,6 +108,34 @@ void vtkTetlodSimplify::SetPreset(int preset) {
   } catch (const tetlod::Error &error) {
     vtkErrorMacro(<< error.what());
   }
+}
+
+// Whether the weights and their number will do is the library's to say.
+void vtkTetlodSimplify::AddSteeringArray(const char *name, double weight) {
+  Internals &in = *this->Inside;
+  std::vector<tetlod_vtk::WeightedArray> steering = in.steering;
+  const std::string wanted = name != nullptr ? name : "";
+  const auto same =
+      std::find_if(steering.begin(), steering.end(), [&](const auto &array) { return array.name == wanted; });
+  if (same != steering.end())
+    same->weight = weight;
+  else
+    steering.push_back({wanted, weight});
+  try {
+    const ClearAtEnd clear(in.context);
+    const double none = 0;
+    for (const tetlod_vtk::WeightedArray &array : steering)
+      in.context.submit_steering(array.name, array.weight, {&none, 0});
+    in.steering = steering;
+    this->Modified();
+  } catch (const tetlod::Error &error) {
+    vtkErrorMacro(<< error.what());
+  }
+}
+
+void vtkTetlodSimplify::ClearSteeringArrays() {
+  this->Inside->steering.clear();
+  this->Modified();
 }
 
 // A property is an option under VTK's name; the defaults and bounds are the library's.
@@ -168,8 +197,8 @@ bool vtkTetlodSimplify::OnProgress(int stage, double fraction) {
 void vtkTetlodSimplify::Execute(vtkUnstructuredGrid *input, vtkUnstructuredGrid *output) {
   Internals &in = *this->Inside;
   std::vector<std::string> notes;
-  const tetlod_vtk::Original original =
-      tetlod_vtk::original_of(input, this->GetInputArrayInformation(0), this->GetInputArrayInformation(1), notes);
+  const tetlod_vtk::Original original = tetlod_vtk::original_of(input, this->GetInputArrayInformation(0), in.steering,
+                                                                this->GetInputArrayInformation(1), notes);
   for (const std::string &note : notes) vtkWarningMacro(<< note);
   const ClearAtEnd clear(in.context);
   tetlod_vtk::submit(in.context, original);
@@ -218,5 +247,7 @@ void vtkTetlodSimplify::PrintSelf(ostream &os, vtkIndent indent) {
   this->Superclass::PrintSelf(os, indent);
   for (int32_t option = 1; tetlod::option_name(option) != nullptr; option++)
     os << indent << tetlod::option_name(option) << ": " << this->GetOption(tetlod::option_name(option)) << '\n';
+  for (const tetlod_vtk::WeightedArray &array : this->Inside->steering)
+    os << indent << "SteeringArray: " << array.name << " " << array.weight << '\n';
   os << indent << "MeasureError: " << (this->MeasureError ? "on" : "off") << '\n';
 }

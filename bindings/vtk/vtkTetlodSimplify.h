@@ -13,9 +13,9 @@
  *
  *     filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "density");
  *
- * unless told, the active scalars, else the first point array of one component. All other point and cell arrays of
- * numbers ride along. Input array 1 may name a point array of unsigned chars with the flags of tetlod.h
- * (TETLOD_FLAG_KEEP, TETLOD_FLAG_LOCK).
+ * unless told, the active scalars, else the first point array of one component. AddSteeringArray names others that
+ * steer beside it. All other point and cell arrays of numbers ride along. Input array 1 may name a point array of
+ * unsigned chars with the flags of tetlod.h (TETLOD_FLAG_KEEP, TETLOD_FLAG_LOCK).
  *
  * Arrays of floats or doubles are read in place, interleaved (AOS) or one component after another (SOA), as are 32 and
  * 64 bit connectivity; others are copied to doubles during the execution.
@@ -49,6 +49,15 @@ class VTKTETLOD_EXPORT vtkTetlodSimplify : public vtkUnstructuredGridAlgorithm {
   void SetPresetToPaper() { this->SetPreset(0); }
   void SetPresetToFast() { this->SetPreset(1); }
   void SetPresetToAccurate() { this->SetPreset(2); }
+
+  ///@{
+  /**
+   * Further point arrays of one component that steer, three at most: an error counts weight (0 to 1e6; 0: the array
+   * rides along) times its part of the array's range. An array that is named again gets another weight.
+   */
+  void AddSteeringArray(const char *name, double weight = 1);
+  void ClearSteeringArrays();
+  ///@}
 
   ///@{
   /** Largest variation of the field in a cluster of the sampling, as a fraction of its range. Default 0.01. */

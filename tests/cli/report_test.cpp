@@ -57,6 +57,19 @@ TEST_F(Report, OptionsAreThoseInEffect) {
   EXPECT_NE(json["command"].get<std::string>().find("--rho 0.02"), std::string::npos);
 }
 
+TEST_F(Report, NamesTheFieldsThatSteer) {
+  ASSERT_EQ(run({"--steer", "other:0.5", "--target-ratio", "0.5"}).status, 0);
+  EXPECT_EQ(json["field"], "heat");
+  EXPECT_EQ(json["steering"], Json({{"other", 0.5}}));
+  const std::string hash = json["hash"];
+  ASSERT_EQ(run({"--steer", "other:0", "--target-ratio", "0.5"}).status, 0);
+  EXPECT_NE(json["hash"], hash);
+  const std::string riding = json["hash"];
+  ASSERT_EQ(run({"--target-ratio", "0.5"}).status, 0);
+  EXPECT_EQ(json["hash"], riding);
+  EXPECT_EQ(json["steering"], Json::object());
+}
+
 TEST_F(Report, TableIsPrintedUnlessQuiet) {
   const Outcome loud = run(), quiet = run({"--quiet"});
   for (const char *row : {"Steiner points", "selected samples", "reading mesh", "CDT", "total (real)", "MB", "RMS"}) {

@@ -53,6 +53,10 @@ TEST_F(Usage, WrongCommandLines) {
   expect_failure(run_tool({in, out, "--threads", "-3"}), 2, "threads");
   expect_failure(run_tool({in, out, "--threads", "1.5"}), 2, "--threads");
   expect_failure(run_tool({in, out, "--preset", "none-such"}), 2, "none-such");
+  expect_failure(run_tool({in, out, "--steer", "other:-1"}), 2, "field other: weight -1");
+  expect_failure(run_tool({in, out, "--steer", "other:nan"}), 2, "field other: weight nan");
+  expect_failure(run_tool({in, out, "--steer", "a", "--steer", "b:2", "--steer", "c", "--steer", "d"}), 2,
+                 "field d: 3 fields");
   expect_failure(run_tool({in, folder / "out.stl"}), 2, "out.stl");
   expect_failure(run_tool({folder / "in.stl", out}), 2, "in.stl");
   expect_only_input();
@@ -88,6 +92,10 @@ TEST_F(Usage, AFieldThatIsNotThere) {
   expect_failure(run_on({}, {"--field", "cold"}), 1, "other");
   expect_failure(run_on({}, {"--field", "flow"}), 1, "not one number");
   expect_failure(run_on({}, {"--field", "part"}), 1, "cell data");
+  expect_failure(run_on({}, {"--steer", "cold:3"}), 1, "no field 'cold'");
+  expect_failure(run_on({}, {"--steer", "not:so"}), 1, "no field 'not:so'");
+  expect_failure(run_on({}, {"--steer", "flow"}), 1, "not one number");
+  expect_failure(run_on({}, {"--steer", "heat"}), 1, "it is the first");
   expect_only_input();
 }
 

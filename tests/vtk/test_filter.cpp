@@ -118,6 +118,31 @@ TEST_F(Filter, TheNamedArraySteersAndTheOthersRideAlong) {
   expect_silence();
 }
 
+TEST_F(Filter, OtherArraysSteerToo) {
+  filter->SetTargetRatio(0.5);
+  const std::string riding = bytes_of(updated());
+  filter->AddSteeringArray("other", 3);
+  const std::string steering = bytes_of(updated());
+  EXPECT_NE(steering, riding);
+  EXPECT_EQ(filter->GetOutput()->GetPointData()->GetNumberOfArrays(), 3);
+  EXPECT_STREQ(filter->GetOutput()->GetPointData()->GetScalars()->GetName(), "heat");
+  filter->AddSteeringArray("other", 0);
+  EXPECT_EQ(bytes_of(updated()), riding);
+  filter->AddSteeringArray("other", 3);
+  EXPECT_EQ(bytes_of(updated()), steering);
+  filter->ClearSteeringArrays();
+  EXPECT_EQ(bytes_of(updated()), riding);
+  expect_silence();
+  const vtkMTimeType then = updated()->GetMTime();
+  filter->AddSteeringArray("other", -2);
+  filter->AddSteeringArray("", 1);
+  EXPECT_TRUE(listener.heard("field other: weight -2"));
+  EXPECT_TRUE(listener.heard("name is empty"));
+  EXPECT_EQ(updated()->GetMTime(), then) << "what is refused changes nothing";
+  filter->AddSteeringArray("cold");
+  expect_failure("no field 'cold'", TETLOD_ERR_ARGUMENT);
+}
+
 TEST_F(Filter, NoCellsAreNoError) {
   filter->SetInputData(vtkNew<vtkUnstructuredGrid>());
   EXPECT_EQ(updated()->GetNumberOfPoints(), 0);
