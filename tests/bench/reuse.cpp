@@ -1,4 +1,5 @@
-// What a context takes over from its earlier runs is worth: new values on the same mesh, and levels of detail.
+// What a context takes over from its earlier runs is worth: new values on the same mesh, levels of detail, and further
+// fields that are moved to a result.
 //
 //     tetlod_reuse FILE [PRESET...]        paper, fast, accurate
 //
@@ -7,11 +8,14 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
+#include <limits>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "bench_context.hpp"
 #include "bench_mesh.hpp"
+#include "stopwatch.hpp"
 #include "tetlod.h"
 
 namespace {
@@ -87,6 +91,39 @@ void measure_levels(const bench::Mesh &mesh, const std::string &preset) {
               reused / fresh);
 }
 
+// Seconds of the processor that a transfer takes, the least of some, each long enough for the clock.
+double seconds_of_transfer(tetlod_context *context, const tetlod_array &original, tetlod_array &simplified) {
+  constexpr int rounds = 10, repeats = 20;
+  double least = std::numeric_limits<double>::infinity();
+  for (int round = 0; round < rounds; round++) {
+    const bench::Stopwatch watch;
+    for (int i = 0; i < repeats; i++) check(tetlod_transfer(context, &original, &simplified), context);
+    least = std::min(least, watch.cost().cpu / repeats);
+  }
+  return least;
+}
+
+void measure_transfer(const bench::Mesh &mesh, const std::string &preset) {
+  const Context context = make_context(mesh);
+  set_level(context.get(), preset, 0.1);
+  check(tetlod_set_int(context.get(), TETLOD_OPT_THREADS, 1), context.get());
+  run(context.get());
+  std::int64_t points = 0;
+  check(tetlod_fetch_counts(context.get(), &points, nullptr, nullptr), context.get());
+  for (const std::int32_t components : {1, 3}) {
+    const std::size_t width = std::size_t(components);
+    const std::vector<double> values(width * mesh.points.size(), 1.0);
+    std::vector<double> moved(width * std::size_t(points));
+    const tetlod_array original = bench::lent(TETLOD_FLOAT64, mesh.points.size(), components, values.data());
+    tetlod_array simplified = bench::lent(TETLOD_FLOAT64, std::size_t(points), components, moved.data());
+    const bench::Stopwatch watch;
+    check(tetlod_transfer(context.get(), &original, &simplified), context.get());
+    const double first = watch.cost().cpu, later = seconds_of_transfer(context.get(), original, simplified);
+    std::printf("%-9s transfer of %d components to %lld points: %.3f s, then %.1f ns a value\n", preset.c_str(),
+                int(components), static_cast<long long>(points), first, 1e9 * later / double(moved.size()));
+  }
+}
+
 }  // namespace
 
 int main(int argc, char **argv) {
@@ -100,6 +137,7 @@ int main(int argc, char **argv) {
       const std::string preset = argc > 2 ? argv[i] : "paper";
       measure_steps(mesh, preset);
       measure_levels(mesh, preset);
+      measure_transfer(mesh, preset);
     }
     return 0;
   } catch (const std::exception &error) {
