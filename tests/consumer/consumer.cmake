@@ -1,6 +1,6 @@
 # Installs into a folder, builds programs against it in both ways and runs them; moves the folder and does it all again.
 # cmake -DBUILD= -DSOURCE= -DVERSION= -DWORK= -DCC= -DCXX= -DFC= -DGENERATOR= -DPKG_CONFIG= -DLIBDIR= -DBINDIR= -DLIBEXECDIR=
-#   -DPYTHON= -P consumer.cmake
+#   -DMODULEDIR= -DPYTHON= -P consumer.cmake
 cmake_minimum_required(VERSION 3.20)
 set(APP ${CMAKE_CURRENT_LIST_DIR}/app)
 include(${CMAKE_CURRENT_LIST_DIR}/tree.cmake)
@@ -104,6 +104,15 @@ function(by_pkg_config prefix name)
   endif()
 endfunction()
 
+# As with another compiler than the .mod files are of: the module from its source.
+function(by_module_source prefix name)
+  set(folder ${WORK}/${name})
+  file(MAKE_DIRECTORY ${folder})
+  run(${FC} -std=f2018 -Wall -Wextra -Werror -J${folder} ${prefix}/${MODULEDIR}/source/tetlod.f90 ${APP}/app.f90 -o ${folder}/app
+    -L${prefix}/${LIBDIR} -ltetlod -Wl,-rpath,${prefix}/${LIBDIR})
+  run_app(${folder}/app)
+endfunction()
+
 # The Debian packages, unpacked beside each other, are an installed tree.
 function(by_package name)
   find_program(DPKG_DEB dpkg-deb)
@@ -163,6 +172,9 @@ endfunction()
 
 by_every_way(${WORK}/first first)
 each_component(${WORK}/first first ${COMPONENTS})
+if(FC)
+  by_module_source(${WORK}/first first-module)
+endif()
 file(RENAME ${WORK}/first ${WORK}/second)
 by_every_way(${WORK}/second second)
 by_package(packages)
