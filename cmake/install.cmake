@@ -14,6 +14,7 @@ install(FILES ${PROJECT_SOURCE_DIR}/capi/tetlod.h ${PROJECT_SOURCE_DIR}/bindings
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR}
   COMPONENT library)
 install(EXPORT tetlodTargets NAMESPACE tetlod:: DESTINATION ${TETLOD_CMAKE_DIR} COMPONENT development)
+export(EXPORT tetlodTargets NAMESPACE tetlod:: FILE ${PROJECT_BINARY_DIR}/cmake/tetlodTargets.cmake)  # for the build tree
 
 if(TARGET tetlod_fortran)
   install(TARGETS tetlod_fortran tetlod_fortran_static EXPORT tetlodFortranTargets

@@ -37,6 +37,9 @@ function(tetlod_add_vtk_module)
     INSTALL_HEADERS ON
     TARGETS_COMPONENT tool
     TEST_DIRECTORY_NAME NONE)
+  set_target_properties(vtkTetlod PROPERTIES
+    LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib
+    INSTALL_RPATH "$ORIGIN")
   if(TETLOD_VTK_PYTHON)
     vtk_module_wrap_python(
       MODULES ${modules}
