@@ -269,7 +269,7 @@ void run(tetlod::Context &context, const tetlod_vtk::OriginalArrays &arrays) {
     const std::int64_t tuples = other.association == TETLOD_CELL_FIELD ? counts.tets : counts.points;
     const auto made = tetlod_vtk::fetch_carried(context, other, tuples);
     DEMAND(made->GetNumberOfTuples() == tuples && made->GetDataType() == other.type, "array %s is in the result",
-           other.name.c_str());
+           other.key().c_str());
   }
 }
 
@@ -280,7 +280,7 @@ void read(const std::string &path, bool runs) {
   messages->install();
   std::vector<std::string> notes;
   const auto grid = cli::read_grid(path, *messages, notes);
-  const auto original = tetlod_vtk::original_of(grid, nullptr, nullptr, notes);
+  const auto original = tetlod_vtk::original_of(grid, nullptr, {}, nullptr, notes);
   messages->check(path, notes);
   tetlod::Context context;
   context.set_real(TETLOD_OPT_TIME_LIMIT, patience);

@@ -1,6 +1,8 @@
 #include "carried_arrays.hpp"
 
 #include <vtkCellData.h>
+#include <vtkInformation.h>
+#include <vtkInformationStringKey.h>
 #include <vtkPointData.h>
 
 namespace tetlod_vtk {
@@ -43,13 +45,13 @@ vtkSmartPointer<vtkDataArray> a_tuple_a_tet(vtkDataArray *array, const Tets &tet
 CarriedArray carried(vtkDataArray *array, int32_t association, int attribute, const Tets &tets) {
   const bool of_cells = association == TETLOD_CELL_FIELD;
   const int type = array->GetDataType();
-  return {array->GetName(), association, of_cells || is_real(type) ? type : VTK_DOUBLE, attribute,
+  return {array, association, of_cells || is_real(type) ? type : VTK_DOUBLE, attribute,
           lend_reals(of_cells ? a_tuple_a_tet(array, tets).Get() : array)};
 }
 
 vtkSmartPointer<vtkDataArray> array_for(const CarriedArray &array, int type) {
   auto values = vtk::TakeSmartPointer(vtkDataArray::CreateDataArray(type));
-  values->SetName(array.name.c_str());
+  values->SetName(array.original->GetName());
   values->SetNumberOfComponents(array.reals.array.components);
   return values;
 }
@@ -76,17 +78,27 @@ std::vector<CarriedArray> carried_arrays(vtkUnstructuredGrid &grid, vtkDataArray
   return all;
 }
 
+void describe_as(vtkDataArray &original, vtkDataArray &result) {
+  result.CopyComponentNames(&original);
+  auto *unit = vtkDataArray::UNITS_LABEL();
+  if (!original.HasInformation() || !original.GetInformation()->Has(unit)) return;
+  result.GetInformation()->Set(unit, original.GetInformation()->Get(unit));
+}
+
 vtkSmartPointer<vtkDataArray> fetch_carried(const tetlod::Context &context, const CarriedArray &array, int64_t tuples) {
   auto fetched = array_for(array, is_real(array.type) ? array.type : VTK_DOUBLE);
   fetched->SetNumberOfTuples(tuples);
   tetlod_array room = room_in(fetched, fetched->GetNumberOfComponents());
   if (const auto status = tetlod_fetch_field(context.get(), array.key().c_str(), &room); status != TETLOD_OK)
     throw tetlod::Error(status, context.last_message());
-  if (is_real(array.type)) return fetched;
-  auto integers = array_for(array, array.type);
-  integers->DeepCopy(fetched);
-  integers->SetName(array.name.c_str());
-  return integers;
+  if (!is_real(array.type)) {
+    auto integers = array_for(array, array.type);
+    integers->DeepCopy(fetched);
+    fetched = integers;
+    fetched->SetName(array.original->GetName());
+  }
+  describe_as(*array.original, *fetched);
+  return fetched;
 }
 
 }  // namespace tetlod_vtk

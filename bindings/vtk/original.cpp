@@ -47,7 +47,7 @@ vtkUnsignedCharArray *flags_array(vtkUnstructuredGrid &grid, vtkInformation *wan
 CarriedArray &further_array(vtkUnstructuredGrid &grid, const std::string &name, std::vector<CarriedArray> &others) {
   steering_field(grid, name);
   for (CarriedArray &other : others)
-    if (other.association == TETLOD_POINT_FIELD && other.name == name) return other;
+    if (other.association == TETLOD_POINT_FIELD && other.original->GetName() == name) return other;
   throw std::runtime_error("field '" + name + "' cannot steer beside others: it is the first, or has no meaning here");
 }
 
@@ -87,8 +87,9 @@ Original original_of(vtkUnstructuredGrid *input, vtkInformation *steering, const
   original.tets = tets_of(*original.grid, notes);  // first: VTK's triangulation may move what it shares with the grid
   original.values = lend_reals(field);
   original.points = lend_points(original.grid->GetPoints()->GetData());
-  original.arrays.steering = field->GetName() != nullptr ? field->GetName() : "scalars";
-  original.arrays.steering_type = is_real(field->GetDataType()) ? field->GetDataType() : VTK_DOUBLE;
+  original.arrays.points = original.grid->GetPoints()->GetData();
+  original.arrays.steering = field;
+  original.arrays.name = field->GetName() != nullptr ? field->GetName() : "scalars";
   original.arrays.others = carried_arrays(*original.grid, field, original.tets, notes);
   for (const WeightedArray &array : further)
     further_array(*original.grid, array.name, original.arrays.others).weight = array.weight;
@@ -99,7 +100,7 @@ void submit(tetlod::Context &context, const Original &original) {
   const tetlod_array corners = room_in(original.tets.corners, 4);
   submit_points(context, original);
   require(tetlod_submit_tets(context.get(), &corners, 0), context);
-  require(tetlod_submit_scalars(context.get(), original.arrays.steering.c_str(), &original.values.array), context);
+  require(tetlod_submit_scalars(context.get(), original.arrays.name.c_str(), &original.values.array), context);
   for (const CarriedArray &other : original.arrays.others) submit_other(context, other);
   if (original.flags == nullptr) return;
   const tetlod_array flags = room_in(original.flags, 1);

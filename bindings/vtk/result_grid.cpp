@@ -16,11 +16,12 @@
 namespace tetlod_vtk {
 namespace {
 
-void fill_points(const tetlod::Context &context, vtkIdType count, vtkUnstructuredGrid &grid) {
+void fill_points(const tetlod::Context &context, vtkDataArray &original, vtkIdType count, vtkUnstructuredGrid &grid) {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   points->SetNumberOfPoints(count);
   context.fetch_points({static_cast<double *>(points->GetVoidPointer(0)), count, 3});
+  describe_as(original, *points->GetData());
   grid.SetPoints(points);
 }
 
@@ -35,12 +36,14 @@ void fill_tets(const tetlod::Context &context, vtkIdType count, vtkUnstructuredG
 
 void fill_scalars(const tetlod::Context &context, const OriginalArrays &arrays, vtkIdType count,
                   vtkUnstructuredGrid &grid) {
-  auto values = vtk::TakeSmartPointer(vtkDataArray::CreateDataArray(arrays.steering_type));
-  values->SetName(arrays.steering.c_str());
+  const int type = arrays.steering->GetDataType();
+  auto values = vtk::TakeSmartPointer(vtkDataArray::CreateDataArray(is_real(type) ? type : VTK_DOUBLE));
+  values->SetName(arrays.name.c_str());
   values->SetNumberOfTuples(count);
   tetlod_array room = room_in(values, 1);
   if (const tetlod_status status = tetlod_fetch_scalars(context.get(), &room); status != TETLOD_OK)
     throw tetlod::Error(status, context.last_message());
+  describe_as(*arrays.steering, *values);
   grid.GetPointData()->SetScalars(values);
 }
 
@@ -48,7 +51,7 @@ void fill_scalars(const tetlod::Context &context, const OriginalArrays &arrays, 
 
 void fill_result(const tetlod::Context &context, const OriginalArrays &arrays, vtkUnstructuredGrid &grid) {
   const tetlod::Counts counts = context.fetch_counts();
-  fill_points(context, counts.points, grid);
+  fill_points(context, *arrays.points, counts.points, grid);
   fill_tets(context, counts.tets, grid);
   fill_scalars(context, arrays, counts.points, grid);
   for (const CarriedArray &other : arrays.others) {

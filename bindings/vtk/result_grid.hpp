@@ -13,8 +13,8 @@ namespace tetlod_vtk {
 
 // The arrays of the original that the result has, too.
 struct OriginalArrays {
-  std::string steering;  // its name
-  int steering_type;     // VTK_FLOAT or VTK_DOUBLE
+  vtkSmartPointer<vtkDataArray> points, steering;
+  std::string name;  // of the steering field
   std::vector<CarriedArray> others;
 };
 

@@ -29,14 +29,18 @@ bool Listener::heard(const std::string &part) const {
   return false;
 }
 
-std::string bytes_of(vtkUnstructuredGrid *grid) {
-  const cli_test::Folder folder;
+void write_grid(vtkUnstructuredGrid *grid, const std::string &path) {
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
-  writer->SetFileName((folder / "grid.vtu").c_str());
+  writer->SetFileName(path.c_str());
   writer->SetInputData(grid);
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOff();
   writer->Write();
+}
+
+std::string bytes_of(vtkUnstructuredGrid *grid) {
+  const cli_test::Folder folder;
+  write_grid(grid, folder / "grid.vtu");
   return cli_test::contents_of(folder / "grid.vtu");
 }
 

@@ -35,6 +35,7 @@ class Listener {
 };
 
 // As the tool writes it.
+void write_grid(vtkUnstructuredGrid *grid, const std::string &path);
 std::string bytes_of(vtkUnstructuredGrid *grid);
 
 }  // namespace vtk_test

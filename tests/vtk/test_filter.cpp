@@ -6,6 +6,7 @@
 #include <vtkDoubleArray.h>
 #include <vtkErrorCode.h>
 #include <vtkInformation.h>
+#include <vtkInformationStringKey.h>
 #include <vtkInformationVector.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
@@ -141,6 +142,51 @@ TEST_F(Filter, OtherArraysSteerToo) {
   EXPECT_EQ(updated()->GetMTime(), then) << "what is refused changes nothing";
   filter->AddSteeringArray("cold");
   expect_failure("no field 'cold'", TETLOD_ERR_ARGUMENT);
+}
+
+void set_unit(vtkDataArray *array, const char *unit) {
+  array->GetInformation()->Set(vtkDataArray::UNITS_LABEL(), unit);
+}
+
+std::string unit_of(vtkDataArray *array) {
+  const char *unit = array->HasInformation() ? array->GetInformation()->Get(vtkDataArray::UNITS_LABEL()) : nullptr;
+  return unit != nullptr ? unit : "";
+}
+
+TEST_F(Filter, UnitsAndNamesOfComponentsStay) {
+  const Grid grid = cube_grid();
+  set_unit(grid->GetPointData()->GetArray("heat"), "K");
+  set_unit(grid->GetPointData()->GetArray("flow"), "m/s");
+  set_unit(grid->GetCellData()->GetArray("part"), "1");
+  set_unit(grid->GetPoints()->GetData(), "m");
+  grid->GetPointData()->GetArray("flow")->SetComponentName(2, "up");
+  filter->SetInputData(grid);
+  vtkUnstructuredGrid *result = updated();
+  EXPECT_EQ(unit_of(result->GetPointData()->GetArray("heat")), "K");
+  EXPECT_EQ(unit_of(result->GetPointData()->GetArray("flow")), "m/s");
+  EXPECT_EQ(unit_of(result->GetCellData()->GetArray("part")), "1");
+  EXPECT_EQ(unit_of(result->GetPoints()->GetData()), "m");
+  EXPECT_EQ(unit_of(result->GetPointData()->GetArray("other")), "");
+  EXPECT_STREQ(result->GetPointData()->GetArray("flow")->GetComponentName(2), "up");
+  const cli_test::Folder folder;
+  write_grid(grid, folder / "in.vtu");
+  const auto tool = cli_test::run_tool(
+      {folder / "in.vtu", folder / "out.vtu", "--field", "heat", "--sigma", "1", "--pictures", folder / "pictures"});
+  ASSERT_EQ(tool.status, 0) << tool.err;
+  EXPECT_EQ(bytes_of(result), cli_test::contents_of(folder / "out.vtu"));
+  EXPECT_NE(cli_test::contents_of(folder / "pictures/report.html").find("heat [K]"), std::string::npos);
+}
+
+TEST_F(Filter, WhatVTKNotesOfAnArraysValuesDoesNotStay) {
+  const Grid grid = cube_grid();
+  filter->SetInputData(grid);
+  const std::string before = bytes_of(updated());
+  double range[2];
+  grid->GetPointData()->GetArray("flow")->GetRange(range, -1);
+  grid->GetPointData()->GetArray("flow")->GetFiniteRange(range, -1);
+  ASSERT_TRUE(grid->GetPointData()->GetArray("flow")->HasInformation());
+  filter->Modified();
+  EXPECT_EQ(bytes_of(updated()), before);
 }
 
 TEST_F(Filter, NoCellsAreNoError) {

@@ -15,9 +15,8 @@ namespace {
 constexpr int kIsoBins = 64;
 
 std::string label_of(vtkDataArray &values, const std::string &name) {
-  vtkInformation *information = values.GetInformation();
-  if (!information->Has(vtkDataArray::UNITS_LABEL())) return name;
-  return name + " [" + information->Get(vtkDataArray::UNITS_LABEL()) + "]";
+  if (!values.HasInformation() || !values.GetInformation()->Has(vtkDataArray::UNITS_LABEL())) return name;
+  return name + " [" + values.GetInformation()->Get(vtkDataArray::UNITS_LABEL()) + "]";
 }
 
 Scale scale_of(vtkDataArray &values) {

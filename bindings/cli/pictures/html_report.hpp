@@ -14,7 +14,7 @@ struct DrawnFigure {
   int width;
 };
 
-// The page with the pictures in it; it refers to nothing outside.
+// The page with the pictures in it; it refers to nothing outside. `field`: its name, with its unit.
 std::string html_report(const Arguments &arguments, const std::string &field, const vtkTetlodSimplify &filter,
                         const ToolSeconds &seconds, const std::vector<DrawnFigure> &figures);
 

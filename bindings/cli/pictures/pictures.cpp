@@ -58,14 +58,14 @@ void write_pictures(const Arguments &arguments, vtkUnstructuredGrid *original, v
                     const std::string &field, const vtkTetlodSimplify &filter, ToolSeconds &seconds) {
   Stopwatch watch;
   const std::filesystem::path folder(arguments.pictures);
-  const std::vector<DrawnFigure> figures =
-      all_figures(pair_of(original, simplified, field, run_report(filter.GetContext())));
+  const Pair pair = pair_of(original, simplified, field, run_report(filter.GetContext()));
+  const std::vector<DrawnFigure> figures = all_figures(pair);
   for (const DrawnFigure &figure : figures) {
     write_whole((folder / (figure.name + ".png")).string(), figure.light);
     write_whole((folder / (figure.name + "-dark.png")).string(), figure.dark);
   }
   seconds.pictures = watch.lap();
-  write_whole((folder / "report.html").string(), html_report(arguments, field, filter, seconds, figures));
+  write_whole((folder / "report.html").string(), html_report(arguments, pair.label, filter, seconds, figures));
 }
 
 }  // namespace cli
