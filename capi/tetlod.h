@@ -149,10 +149,11 @@ typedef struct tetlod_run_report {
   int64_t boundary_points_out, boundary_edges_out, boundary_triangles_out;
   int64_t selected_samples;                  /* leaves of the sampling tree [3.1] */
   int64_t samples_outside, samples_too_near; /* removed [3.3] */
-  int64_t samples;                           /* what is left */
+  int64_t samples;                           /* what is left, or what collapsing edges left inside */
   int64_t steiner_points;                    /* added by the remeshing [3.4] */
   int64_t points_out, tets_out;
-  int64_t remesh_attempts;  /* calls of TetGen for the boundary that was accepted; 1: it succeeded at once */
+  int64_t remesh_attempts;  /* calls of TetGen for the boundary that was accepted; 1: it succeeded at once; 0: it was
+                               not needed (TETLOD_EFFORT_ACCURATE) */
   int64_t boundary_retries; /* how often the boundary had to be decimated less, because TetGen failed on it */
   double seconds_prepare, seconds_boundary, seconds_decimate, seconds_sample, seconds_cull, seconds_remesh,
       seconds_values, seconds_total;
@@ -306,14 +307,17 @@ enum {
   TETLOD_OPT_ON_UNUSED = 18,    /* "on-unused": ignore the points; TETLOD_ERR_MESH_DEGENERATE */
   TETLOD_OPT_ON_NONFINITE = 19, /* "on-nonfinite": ignore points without a finite value together with their tets;
                                    TETLOD_ERR_MESH_NONFINITE, the default */
-  TETLOD_OPT_TARGET_RATIO = 20, /* real, "target-ratio": tets kept, as a fraction of the original's sound ones. Then the
-                                   boundary is decimated with a cost that sees the field, samples are taken where a
-                                   linear field would be wrong, values are fitted to all original values, and rho,
+  TETLOD_OPT_TARGET_RATIO = 20, /* real, "target-ratio": tets kept, as a fraction of the original's sound ones. Then
+                                   every step sees the field, as effort says, values are fitted to all original values,
+                                   vertices inside move and faces and edges flip where the field gains by it, and rho,
                                    sigma, lambda and min-distance have no meaning; 0, the default: as published */
-  TETLOD_OPT_EFFORT = 21,       /* int, "effort": with a target ratio, vertices inside move and faces and
-                                   edges flip where the field gains by it: TETLOD_EFFORT_FAST: in one pass;
-                                   TETLOD_EFFORT_ACCURATE, the default: in 4 to 12 more, which also remove and insert
-                                   vertices */
+  TETLOD_OPT_EFFORT = 21,       /* int, "effort": with a target ratio or a bound. TETLOD_EFFORT_FAST: the boundary is
+                                   decimated by quadrics that see the field, samples are taken where a linear field
+                                   would be wrong, and both are remeshed. TETLOD_EFFORT_ACCURATE, the default: edges of
+                                   the original collapse, inside and on the boundary, by quadrics of the values'
+                                   errors, and the smaller the mesh, the more passes follow, up to 12, that also remove
+                                   and insert vertices; remeshed is only what cannot be had so (a size beyond the
+                                   mesh's topology, tets that overlap), and where clean-edges is set */
   TETLOD_OPT_MAX_ERROR = 22,    /* real, "max-error": bound of the error at every original vertex, as a fraction of the
                                    values' range, for every field that steers; one that lies outside the result is
                                    compared at the nearest point of its boundary. Begins with target-ratio (0: 0.05),
@@ -410,7 +414,8 @@ TETLOD_API tetlod_status tetlod_estimate_memory(tetlod_context *context, uint64_
  *   the checks of the mesh, its boundary and how that hangs together, while points, tets, point flags, merge tolerance
  *   and policies are the same and all values are finite;
  *   the boundary's decimation, if lambda, clean-edges and max-deviation are the same as well, as far as it went: a
- *   sigma that is not smaller. With a target ratio or a bound its cost sees the field: then only for the same values;
+ *   sigma that is not smaller. With a target ratio or a bound its cost sees the field: then only for the same
+ *   values, and not at all with TETLOD_EFFORT_ACCURATE, where boundary and inside go together;
  *   what culling found of each sample, if sigma, min-distance and boundary-leaf are also those of the last run.
  * The same means the same contents (by a fingerprint of 128 bits, taken anew in every run) in the same layout: arrays
  * may be changed in place, or submitted again. What is kept for that counts as memory of the context; a run that fails
@@ -418,8 +423,9 @@ TETLOD_API tetlod_status tetlod_estimate_memory(tetlod_context *context, uint64_
  *
  * Guarantees of a result: every tet has a positive volume, every face is used by one or two tets, the boundary is
  * closed, does not cross itself and has the components and the Euler characteristic of the original's, every value lies
- * within the original's range. Boundary vertices come first, then samples (each an original vertex with its value),
- * then Steiner points; with a target ratio, boundary vertices, then all others. */
+ * within the original's range. Where edges collapse (TETLOD_EFFORT_ACCURATE) the volume changes by 1 % at most.
+ * Boundary vertices come first, then samples (each an original vertex with its value), then Steiner points; with a
+ * target ratio, boundary vertices, then all others. */
 TETLOD_API tetlod_status tetlod_run(tetlod_context *context);
 
 /* Estimates the field error of the last result [4], at the original vertices and at samples_per_tet (0 to 100) random
