@@ -71,6 +71,7 @@ void call_with_nothing(Session &session, Bytes &in) {
       tetlod_submit_tets(c, nullptr, 0),
       tetlod_submit_scalars(c, nullptr, nullptr),
       tetlod_submit_field(c, "f", TETLOD_POINT_FIELD, nullptr),
+      tetlod_submit_steering(c, "f", 1, nullptr),
       tetlod_submit_point_flags(c, nullptr),
       tetlod_clear(nullptr),
       tetlod_check(c, bare ? &out.mesh : nullptr),
@@ -186,6 +187,7 @@ void submit_one_slot(Session &session, Bytes &in) {
 }
 
 void submit_field(Session &session, Bytes &in) { session.submit_field(in); }
+void submit_steering(Session &session, Bytes &in) { session.submit_steering(in); }
 void submit_flags(Session &session, Bytes &in) { session.submit_flags(in); }
 
 void forget_input(Session &session, Bytes &) { session.clear(); }
@@ -356,7 +358,7 @@ constexpr Step steps[] = {run,
                           call_with_nothing,
                           make_wrong_context,
                           submit_field,
-                          submit_field,
+                          submit_steering,
                           submit_flags,
                           set_target,
                           set_target,

@@ -139,6 +139,8 @@ void submit_nonsense(Session &session, Bytes &in) {
   const tetlod_array corners = tets.array();
   const tetlod_status status = tetlod_submit_tets(c, &corners, base);
   DEMAND(status == (base == 0 || base == 1 ? TETLOD_OK : TETLOD_ERR_ARGUMENT), "base %d: %d", base, status);
+  submit_tampered(values, Kind::reals, 1, in,
+                  [c](const tetlod_array *a) { return tetlod_submit_steering(c, "g", 1, a); });
   session.clear();  // the blocks go
 }
 

@@ -91,6 +91,13 @@ Mesh Session::mesh() const {
   }
   mesh.id = sound_points_;
   mesh.sound = mesh.id && mesh.id == sound_tets_ && mesh.id == sound_values_;
+  for (const auto &[name, values] : steering())  // a point with one value that is not finite has none
+    for (std::int64_t i = 0; i < std::min(mesh.point_count(), values->layout().tuples); i++) {
+      const double value = values->real(i, 0);
+      if (std::isfinite(value) || std::size_t(i) >= mesh.values.size()) continue;
+      mesh.values[std::size_t(i)] = value;
+      mesh.sound = false;
+    }
   return mesh;
 }
 

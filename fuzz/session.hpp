@@ -71,6 +71,7 @@ class Session {
   void submit_plain(const Mesh &mesh, std::int32_t base);
   std::int32_t base() const { return base_; }
   void submit_field(Bytes &in);
+  void submit_steering(Bytes &in);
   void submit_flags(Bytes &in);
   void clear();
   bool complete() const { return points_ && tets_ && values_; }
@@ -101,6 +102,7 @@ class Session {
     std::string name;
     std::int32_t association;
     Block *values;
+    double weight = 0;  ///< positive: it steers
   };
   /// What became of a field in the last successful run.
   struct Carried {
@@ -118,6 +120,8 @@ class Session {
   bool undisturbed_success_expected(const Mesh &mesh) const;
   void check_target() const;
 
+  std::vector<std::pair<std::string, Block *>> steering() const;
+  void check_steered(const Carried &field) const;
   bool fields_fit() const;
   bool flags_fit() const;
   std::vector<double> carried(const Field &field) const;
@@ -145,6 +149,7 @@ class Session {
   std::vector<Carried> carried_;
   Block *last_points_ = nullptr, *last_tets_ = nullptr, *last_values_ = nullptr;  ///< the input of last_
   std::int32_t last_base_ = 0;
+  std::vector<std::pair<std::string, Block *>> last_steering_;
   bool stencil_known_ = false;  ///< no array is read for it any more
   std::uint64_t hash_ = 0;
   std::string said_;  ///< the message of the last call that worked

@@ -1,4 +1,5 @@
-// The fields that ride along and the flags of points: what a session submits of them, and what it finds in the answers.
+// The fields beside the scalars and the flags of points: what a session submits of them, and what it finds in the
+// answers.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -110,6 +111,27 @@ void Session::submit_field(Bytes &in) {
   const auto same_name = [&](const Field &field) { return field.name == name; };
   fields_.erase(std::remove_if(fields_.begin(), fields_.end(), same_name), fields_.end());
   fields_.push_back({name, association, values});
+}
+
+void Session::submit_steering(Bytes &in) {
+  constexpr double weights[] = {0, 1, 1e-3, 1e6, 2e6, -1, std::numeric_limits<double>::quiet_NaN()};
+  const std::string name = in.one_in(16) ? "" : names[in.below(std::size(names))];
+  const double weight = in.one_in(4) ? weights[in.below(std::size(weights))] : 1 + double(in.below(4));
+  const std::int64_t tuples = (points_ ? points_->layout().tuples : 0) + in.one_in(32);
+  blocks_.push_back(std::make_unique<Block>(any_reals(tuples, 1, in)));
+  Block *const values = blocks_.back().get();
+  fill_field(*values, in);
+  const tetlod_array array = values->array();
+  const tetlod_status status = tetlod_submit_steering(context_, name.c_str(), weight, &array);
+  const auto same_name = [&](const Field &field) { return field.name == name; };
+  const auto others = std::count_if(fields_.begin(), fields_.end(),
+                                    [&](const Field &field) { return field.weight > 0 && !same_name(field); });
+  const bool good = !name.empty() && weight >= 0 && weight <= 1e6 && (weight == 0 || others < 3);
+  DEMAND(status == (good ? TETLOD_OK : TETLOD_ERR_ARGUMENT), "a field that steers is taken: %d", status);
+  if (!good) return;
+  trace("field %s steers with weight %g\n", name.c_str(), weight);
+  fields_.erase(std::remove_if(fields_.begin(), fields_.end(), same_name), fields_.end());
+  fields_.push_back({name, TETLOD_POINT_FIELD, values, weight});
 }
 
 void Session::submit_flags(Bytes &in) {
@@ -231,7 +253,10 @@ void Session::accept_fields(const Mesh &mesh) {
   carried_.clear();
   for (const Field &field : fields_) carried_.push_back({field, carried(field)});
   last_points_ = points_, last_tets_ = tets_, last_values_ = values_, last_base_ = base_;
-  const auto of_points = [](const Field &field) { return field.association == TETLOD_POINT_FIELD; };
+  last_steering_ = steering();
+  const auto of_points = [](const Field &f) { return f.association == TETLOD_POINT_FIELD && f.weight == 0; };
+  for (const Carried &field : carried_)
+    if (field.field.weight > 0) check_steered(field);
   stencil_known_ = std::any_of(fields_.begin(), fields_.end(), of_points);
   check_cell_fields();
   if (!stencil_known_ || conditions_.memory_limit) return;
@@ -299,7 +324,8 @@ void Session::fetch_field(Bytes &in) {
 /// Known, or found now from the arrays of the run, if they are still submitted.
 tetlod_status Session::stencil_status() const {
   if (stencil_known_) return TETLOD_OK;
-  const bool same = points_ == last_points_ && tets_ == last_tets_ && values_ == last_values_ && base_ == last_base_;
+  const bool same = points_ == last_points_ && tets_ == last_tets_ && values_ == last_values_ && base_ == last_base_ &&
+                    steering() == last_steering_;
   return complete() && same ? TETLOD_OK : TETLOD_ERR_STATE;
 }
 

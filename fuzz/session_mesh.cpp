@@ -1,6 +1,8 @@
 // What a session submits, and what it finds in the answers.
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 #include "demand.hpp"
@@ -151,6 +153,30 @@ void Session::accept(const Mesh &mesh, const Facts &facts) {
   hash_ = report.hash;
   check_target();
   accept_fields(mesh);
+}
+
+/// Sorted by their names.
+std::vector<std::pair<std::string, Block *>> Session::steering() const {
+  std::vector<std::pair<std::string, Block *>> all;
+  for (const Field &field : fields_)
+    if (field.weight > 0) all.emplace_back(field.name, field.values);
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+/// Nothing overshoots.
+void Session::check_steered(const Carried &field) const {
+  const Block &original = *field.field.values;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (std::int64_t i = 0; i < original.layout().tuples; i++) {
+    const double value = original.real(i, 0);
+    if (!std::isfinite(value)) continue;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  for (const double value : field.values)
+    DEMAND(value >= low && value <= high, "field %s: %.17g is in [%.17g, %.17g]", field.field.name.c_str(), value, low,
+           high);
 }
 
 /// The bound is held, by what the report says and by what is measured.
