@@ -27,14 +27,36 @@ TEST(Scale, TicksAreRoundNumbersWithinTheEnds) {
   }
 }
 
+// So many values between two, evenly, or so that each is as many times the one before.
+std::vector<double> spread(double from, double to, bool evenly) {
+  std::vector<double> values;
+  for (int i = 0; i <= 1000; i++) values.push_back(Scale{from, to, !evenly}.value(i / 1000.0));
+  return values;
+}
+
 TEST(Scale, IsLogarithmicForPositiveValuesOfManySizesAlone) {
-  EXPECT_TRUE(scale_for(0.1, 2).logarithmic);
-  EXPECT_FALSE(scale_for(1, 9).logarithmic);
-  EXPECT_FALSE(scale_for(0, 9).logarithmic);
-  EXPECT_FALSE(scale_for(-1, 9).logarithmic);
+  EXPECT_TRUE(scale_for(spread(0.1, 20, false)).logarithmic);
+  EXPECT_FALSE(scale_for(spread(0.01, 20, true)).logarithmic) << "half of them would have a tenth of the scale";
+  EXPECT_FALSE(scale_for(spread(1, 4, false)).logarithmic);
+  EXPECT_FALSE(scale_for(spread(0, 9, true)).logarithmic);
+  EXPECT_FALSE(scale_for(spread(-1, 9, true)).logarithmic);
+  EXPECT_FALSE(scale_for({7}).logarithmic);
+  EXPECT_EQ(scale_for({}).high, 1);
+  EXPECT_EQ(scale_for(spread(3, 5, true)).low, 3);
+  EXPECT_EQ(scale_for(spread(3, 5, true)).high, 5);
   for (const Scale &scale : {Scale{0.1, 2, true}, Scale{-3, 9, false}}) {
     for (const double share : {0.0, 0.3, 1.0}) EXPECT_NEAR(scale.share(scale.value(share)), share, 1e-12);
   }
+}
+
+TEST(Scale, BeginsAtAThousandthWhereNearlyAllIsNextToZero) {
+  std::vector<double> values = spread(2, 1e4, false);
+  values.insert(values.end(), 20000, 0.0);
+  const Scale scale = scale_for(values);
+  EXPECT_TRUE(scale.logarithmic);
+  EXPECT_EQ(scale.low, 10);
+  EXPECT_EQ(scale.high, 1e4);
+  EXPECT_EQ(scale.share(0), 0);
 }
 
 TEST(Scale, AConstantFieldHasATick) {
@@ -46,6 +68,9 @@ TEST(Scale, NumbersAreShort) {
   EXPECT_EQ(number_text(0.000012), "1.2e-5");
   EXPECT_EQ(number_text(3.314e-7), "3.314e-7");
   EXPECT_EQ(number_text(30243.4), "30,240");
+  EXPECT_EQ(number_text(3207), "3,207");
+  EXPECT_EQ(number_text(-1000), "-1,000");
+  EXPECT_EQ(number_text(999.94), "999.9");
   EXPECT_EQ(number_text(-1234567), "-1,235,000");
   EXPECT_EQ(number_text(0.25), "0.25");
   EXPECT_EQ(count_text(1234567), "1,234,567");

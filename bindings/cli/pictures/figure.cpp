@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
+
+#include "colour_map.hpp"
+#include "raster.hpp"
 
 namespace cli {
 namespace {
@@ -19,22 +21,31 @@ std::string label_of(vtkDataArray &values, const std::string &name) {
   return name + " [" + values.GetInformation()->Get(vtkDataArray::UNITS_LABEL()) + "]";
 }
 
-Scale scale_of(vtkDataArray &values) {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
+std::vector<double> finite_values(vtkDataArray &values) {
+  std::vector<double> finite;
   for (vtkIdType i = 0; i < values.GetNumberOfTuples(); i++) {
-    const double value = values.GetTuple1(i);
-    if (std::isfinite(value)) low = std::min(low, value), high = std::max(high, value);
+    if (std::isfinite(values.GetTuple1(i))) finite.push_back(values.GetTuple1(i));
   }
-  return scale_for(low, high);
+  return finite;
+}
+
+std::string axis_of(const Scale &scale, double least, const std::string &label) {
+  if (!scale.logarithmic) return label;
+  return label + ", logarithmic" + (least < scale.low ? ", all below at the left end" : "");
 }
 
 }  // namespace
 
 Pair pair_of(vtkUnstructuredGrid *original, vtkUnstructuredGrid *simplified, const std::string &field,
              const tetlod_run_report &run) {
-  Pair pair{sight_of(original, field), sight_of(simplified, field), {}, {}, {}};
+  Pair pair{sight_of(original, field), sight_of(simplified, field), {}, {}, {}, 0, true, {}};
+  const std::vector<double> values = finite_values(*pair.original.values);
+  const double least = values.empty() ? 0 : *std::min_element(values.begin(), values.end());
   pair.label = label_of(*pair.original.values, field);
-  pair.scale = scale_of(*pair.original.values);
+  pair.scale = scale_for(values);
+  pair.axis = axis_of(pair.scale, least, pair.label);
+  pair.range = pair.scale.high - least;
+  pair.whole = vtkIdType(values.size()) == pair.original.values->GetNumberOfTuples();
   char share[32];
   std::snprintf(share, sizeof share, "%.3g", 100.0 * double(run.tets_out) / double(run.tets_in));
   pair.captions[0] = "original: " + count_text(run.tets_in) + " tets";
@@ -43,6 +54,22 @@ Pair pair_of(vtkUnstructuredGrid *original, vtkUnstructuredGrid *simplified, con
 }
 
 View view_of(const Pair &pair) { return best_view(surface_of(pair.original), kPanelWidth, 460); }
+
+void draw_no_colour(Canvas &page, const std::string &meaning, int y) {
+  constexpr int left = kBarLeft + kBarWidth + 60, size = 16;
+  page.rectangle(left, y, size, size, no_colour());
+  page.text(meaning, left + 1.5 * size, y + size / 2.0, size);
+}
+
+Image shadow_of(const Shape &surface, const View &view) {
+  constexpr double opacity = 0.14;
+  Raster raster(view.width, view.height, 2);
+  raster.draw_triangles(surface, view);
+  Image image = raster.image([](const Raster::Sample &) { return Colour{0.6, 0.6, 0.6}; });
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4)
+    image.rgba[i] = static_cast<std::uint8_t>(opacity * image.rgba[i] + 0.5);
+  return image;
+}
 
 std::vector<long long> histogram_of(vtkDataArray &values, const Scale &scale, int bins) {
   std::vector<long long> counts(std::size_t(bins), 0);

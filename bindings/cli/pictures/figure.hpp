@@ -17,6 +17,9 @@ struct Pair {
   Sight original, simplified;
   std::string label;  // of the field, with its unit
   Scale scale;        // of the original's finite values
+  std::string axis;   // the label, and what is to be said of the scale
+  double range;       // of the original's finite values
+  bool whole;         // all values of the original are finite
   std::string captions[2];
 };
 
@@ -37,6 +40,12 @@ Figure histogram_figure(const Pair &pair);
 
 // The view that the first three share.
 View view_of(const Pair &pair);
+
+// Tells what the colour of nothing means, right of a colour bar at that height.
+void draw_no_colour(Canvas &page, const std::string &meaning, int y);
+
+// A pale shadow of a surface, to see where in the mesh something is.
+Image shadow_of(const Shape &surface, const View &view);
 
 // How often the finite values of an array are in each of `bins` equal parts of the scale.
 std::vector<long long> histogram_of(vtkDataArray &values, const Scale &scale, int bins);

@@ -11,7 +11,7 @@ namespace cli {
 namespace {
 
 constexpr int kBins = 128, kPlotHeight = 240, kHead = 40, kLeft = 80, kFoot = 64;
-constexpr int kPlotWidth = kPanelWidth - kLeft - 10;
+constexpr int kPlotWidth = kPanelWidth - kLeft - 40;
 
 std::vector<double> shares_of(vtkDataArray &values, const Scale &scale) {
   const auto counts = histogram_of(values, scale, kBins);
@@ -79,7 +79,8 @@ Figure histogram_figure(const Pair &pair) {
         const Plot plot{double(left + kLeft), double(top + kHead), pair.scale, row == 0 ? linear : logarithmic};
         page.text(pair.captions[side] + (row == 0 ? "" : ", logarithmic"), left + kLeft + kPlotWidth / 2.0,
                   top + kHead / 2.0, kCaptionSize, Align::centre, true);
-        draw_frame(page, plot, pair.label + (pair.scale.logarithmic ? ", logarithmic" : ""));
+        page.text("vertices", plot.left - 8, top + kHead / 2.0, 14, Align::right);
+        draw_frame(page, plot, pair.axis);
         draw_bars(page, plot, side == 0 ? before : after);
       }
     }

@@ -17,7 +17,7 @@ h1{font-size:26px;margin:0 0 4px}h2{font-size:20px;margin:36px 0 8px}p{max-width
 .soft,figcaption{color:var(--soft)}figure{margin:0}img{max-width:100%;height:auto;display:block}figcaption{max-width:100ch}
 .tables{display:flex;flex-wrap:wrap;gap:8px 48px;align-items:flex-start}
 table{border-collapse:collapse}caption{text-align:left;font-weight:600;padding:12px 0 4px}
-th,td{padding:3px 14px 3px 0;border-top:1px solid var(--line);text-align:left;font-weight:400}td{text-align:right;padding:3px 0 3px 14px}
+th,td{padding:3px 14px 3px 0;border-top:1px solid var(--line);text-align:left;font-weight:400}td{text-align:right;padding:3px 0 3px 14px;white-space:nowrap}
 td,.number{font-variant-numeric:tabular-nums}pre{background:var(--box);padding:12px;overflow-x:auto;white-space:pre-wrap;word-break:break-word}
 )";
 
@@ -94,11 +94,11 @@ std::string counts_table(const tetlod_run_report &run) {
 
 std::string samples_table(const tetlod_run_report &run) {
   Table table("Vertices inside");
-  table.row("selected samples", count_text(run.selected_samples));
+  table.row("samples of the original's", count_text(run.selected_samples));
   table.row("removed: outside", count_text(run.samples_outside));
   table.row("removed: too near the boundary", count_text(run.samples_too_near));
-  table.row("Steiner points", count_text(run.steiner_points));
-  if (run.inserted_points > 0) table.row("inserted", count_text(run.inserted_points));
+  table.row("added by the tetrahedralization (Steiner points)", count_text(run.steiner_points));
+  if (run.inserted_points > 0) table.row("inserted for the error's sake", count_text(run.inserted_points));
   if (run.merged_points > 0) table.row("coincident points merged", count_text(run.merged_points));
   if (run.dropped_tets > 0) table.row("tets dropped", count_text(run.dropped_tets));
   if (run.nonfinite_points > 0) table.row("points without a value", count_text(run.nonfinite_points));
@@ -163,7 +163,7 @@ std::string html_report(const Arguments &arguments, const std::string &field, co
                      "</title>\n<meta name=\"viewport\" content=\"width=device-width\"><style>" + kStyle +
                      "</style></head><body>\n<h1>" + name + ", simplified</h1>\n" + lead(field, run, error);
   for (const DrawnFigure &figure : figures) page += figure_text(figure);
-  page += "<h2>Figures</h2>\n<div class=\"tables\">" + counts_table(run) + samples_table(run) + error_table(error) +
+  page += "<h2>In numbers</h2>\n<div class=\"tables\">" + counts_table(run) + samples_table(run) + error_table(error) +
           seconds_table(run, seconds) + "</div>\n<h2>Made by</h2>\n<pre>" + escaped(arguments.command) +
           "</pre>\n<p class=\"soft\">" + escaped(tetlod_build_info()) + "</p>\n</body></html>\n";
   return page;

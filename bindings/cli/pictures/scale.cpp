@@ -8,7 +8,22 @@
 namespace cli {
 namespace {
 
-constexpr double kLogarithmicFrom = 10;  // times the least value
+constexpr std::size_t kBins = 64;
+constexpr double kManyTimes = 5;              // the least value
+constexpr double kNextToZero = 1e-3;          // of the greatest value
+constexpr double kHardlyAny = 2, kByFar = 1;  // bits
+
+// Bits that the parts of a scale tell of a value: the more, the more evenly the values are spread over it.
+double bits_of(const Scale &scale, const std::vector<double> &values) {
+  std::vector<double> counts(kBins, 0);
+  for (const double value : values) counts[std::min(std::size_t(scale.share(value) * kBins), kBins - 1)]++;
+  double bits = 0;
+  for (const double count : counts) {
+    const double part = count / double(values.size());
+    if (part > 0) bits -= part * std::log2(part);
+  }
+  return bits;
+}
 
 // 1, 2 or 5 times a power of ten.
 double nice_step(double raw) {
@@ -51,7 +66,16 @@ double Scale::value(double share) const {
   return logarithmic ? low * std::pow(high / low, share) : low + share * (high - low);
 }
 
-Scale scale_for(double low, double high) { return {low, high, low > 0 && high > kLogarithmicFrom * low}; }
+Scale scale_for(const std::vector<double> &values) {
+  if (values.empty()) return {};
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  const Scale linear{*low, *high, false};
+  if (*low < 0 || *high <= kManyTimes * *low) return linear;
+  const double bits = bits_of(linear, values);
+  if (*low == 0 && bits > kHardlyAny) return linear;
+  const Scale logarithmic{*low > 0 ? *low : kNextToZero * *high, *high, true};
+  return bits_of(logarithmic, values) > bits - kByFar ? logarithmic : linear;
+}
 
 std::vector<double> ticks_of(const Scale &scale) {
   return scale.logarithmic ? logarithmic_ticks(scale) : linear_ticks(scale);
@@ -76,7 +100,8 @@ std::string count_text(long long count) {
 std::string number_text(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.4g", value);
-  if (std::abs(value) >= 1e4 && std::abs(value) < 1e8) return count_text(std::llround(std::strtod(text, nullptr)));
+  if (std::abs(std::strtod(text, nullptr)) >= 1e3 && std::abs(value) < 1e8)
+    return count_text(std::llround(std::strtod(text, nullptr)));
   std::string number(text);
   const std::size_t exponent = number.find('e');
   if (exponent == std::string::npos) return number;

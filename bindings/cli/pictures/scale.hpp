@@ -15,8 +15,10 @@ struct Scale {
   double value(double share) const;
 };
 
-// Logarithmic where all values are above zero and the greatest is many times the least.
-Scale scale_for(double low, double high);
+// From the least to the greatest of finite values. Logarithmic where all are above zero and the greatest is many times
+// the least, unless that tells them apart worse by far; and from a thousandth of the greatest on where nearly all of
+// the others are next to zero. Values below its low end look like that end.
+Scale scale_for(const std::vector<double> &values);
 
 // Numbers with few digits between the ends, some five of them.
 std::vector<double> ticks_of(const Scale &scale);

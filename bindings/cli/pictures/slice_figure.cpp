@@ -32,26 +32,22 @@ Raster drawn(const Shape &shape, const View &view) {
   return raster;
 }
 
-// The whole cross-section of the box is in the picture, so that slices of one axis have one size.
+// Both slices fill the picture.
 Slice cut(const Pair &pair, int axis, double at) {
   const Vector extent{high_of(pair, 0) - low_of(pair, 0), high_of(pair, 1) - low_of(pair, 1),
                       high_of(pair, 2) - low_of(pair, 2)};
   View view = view_along(axis, extent);
-  std::vector<Vector> corners;
-  for (int c = 0; c < 8; c++) {
-    const auto end = [&](int k) { return c >> k & 1 ? high_of(pair, k) : low_of(pair, k); };
-    corners.push_back({end(0), end(1), end(2)});
-  }
-  fit(view, corners, kWidth, kHeight);
-  return {axis, at, view, drawn(slice_of(pair.original, axis, at), view),
-          drawn(slice_of(pair.simplified, axis, at), view)};
+  const Shape original = slice_of(pair.original, axis, at), simplified = slice_of(pair.simplified, axis, at);
+  std::vector<Vector> points = original.points;
+  points.insert(points.end(), simplified.points.begin(), simplified.points.end());
+  fit(view, points, kWidth, kHeight);
+  return {axis, at, view, drawn(original, view), drawn(simplified, view)};
 }
 
 // The difference of two samples as a part of the field's range; NaN where only one of them is covered.
-double difference(const Raster::Sample &a, const Raster::Sample &b, const Scale &scale) {
+double difference(const Raster::Sample &a, const Raster::Sample &b, double range) {
   if (!a.covered() || !b.covered()) return std::nan("");
-  const double range = scale.high > scale.low ? scale.high - scale.low : 1;
-  return std::abs(double(a.value) - double(b.value)) / range;
+  return std::abs(double(a.value) - double(b.value)) / (range > 0 ? range : 1);
 }
 
 // Adds places to a sum, each by its squared error.
@@ -59,10 +55,10 @@ struct ErrorCentre {
   Vector sum{};
   Vector weight{};
 
-  void add(const Slice &slice, const Scale &scale) {
+  void add(const Slice &slice, double range) {
     const View &view = slice.view;
     for (std::size_t i = 0; i < slice.original.samples().size(); i++) {
-      const double e = difference(slice.original.samples()[i], slice.simplified.samples()[i], scale);
+      const double e = difference(slice.original.samples()[i], slice.simplified.samples()[i], range);
       if (!std::isfinite(e)) continue;
       const int columns = view.width * kSamples, x = int(i) % columns, y = int(i) / columns;
       const double along = ((x + 0.5) / kSamples - 0.5 * view.width) / view.pixels + view.centre_x;
@@ -82,7 +78,7 @@ std::vector<Slice> slices_of(const Pair &pair) {
   Vector middle{};
   for (int axis = 0; axis < 3; axis++) {
     middle[std::size_t(axis)] = 0.5 * (low_of(pair, axis) + high_of(pair, axis));
-    centre.add(cut(pair, axis, middle[std::size_t(axis)]), pair.scale);
+    centre.add(cut(pair, axis, middle[std::size_t(axis)]), pair.range);
   }
   std::vector<Slice> slices;
   for (int axis = 0; axis < 3; axis++) {
@@ -92,11 +88,11 @@ std::vector<Slice> slices_of(const Pair &pair) {
   return slices;
 }
 
-Scale error_scale(const std::vector<Slice> &slices, const Scale &field) {
+Scale error_scale(const std::vector<Slice> &slices, double range) {
   std::vector<double> errors;
   for (const Slice &slice : slices) {
     for (std::size_t i = 0; i < slice.original.samples().size(); i++) {
-      const double e = difference(slice.original.samples()[i], slice.simplified.samples()[i], field);
+      const double e = difference(slice.original.samples()[i], slice.simplified.samples()[i], range);
       if (std::isfinite(e)) errors.push_back(100 * e);
     }
   }
@@ -113,12 +109,12 @@ Image field_image(const Raster &raster, const Scale &scale) {
 }
 
 // Where only one of the two has a value, the sample's is NaN, which has a colour of its own.
-Image error_image(const Slice &slice, const Scale &field, const Scale &scale) {
+Image error_image(const Slice &slice, double range, const Scale &scale) {
   Raster errors = slice.original;
   for (std::size_t i = 0; i < errors.samples().size(); i++) {
     Raster::Sample &sample = errors.samples()[i];
     const Raster::Sample &other = slice.simplified.samples()[i];
-    sample.value = static_cast<float>(100 * difference(sample, other, field));
+    sample.value = static_cast<float>(100 * difference(sample, other, range));
     sample.depth = std::max(sample.depth, other.depth);
     sample.ink = 0;
     sample.light = 1;
@@ -128,22 +124,29 @@ Image error_image(const Slice &slice, const Scale &field, const Scale &scale) {
   });
 }
 
+// ", y right, z up"
+std::string directions_of(const View &view) {
+  const auto name = [](const Vector &v) { return "xyz"[std::max_element(v.begin(), v.end()) - v.begin()]; };
+  return std::string(", ") + name(view.right) + " right, " + name(view.up) + " up";
+}
+
 struct Pictures {
   std::array<std::array<Image, 3>, 3> rows;  // original, simplified, difference; by axis
-  std::array<std::string, 3> places;
+  std::array<std::string, 3> places, directions;
   Scale errors;
 };
 
 std::shared_ptr<Pictures> pictures_of(const Pair &pair) {
   const std::vector<Slice> slices = slices_of(pair);
   auto made = std::make_shared<Pictures>();
-  made->errors = error_scale(slices, pair.scale);
+  made->errors = error_scale(slices, pair.range);
   for (const Slice &slice : slices) {
     const auto k = std::size_t(slice.axis);
     made->rows[0][k] = field_image(slice.original, pair.scale);
     made->rows[1][k] = field_image(slice.simplified, pair.scale);
-    made->rows[2][k] = error_image(slice, pair.scale, made->errors);
+    made->rows[2][k] = error_image(slice, pair.range, made->errors);
     made->places[k] = std::string(1, "xyz"[k]) + " = " + number_text(slice.at);
+    made->directions[k] = directions_of(slice.view);
   }
   return made;
 }
@@ -166,19 +169,18 @@ Figure slice_figure(const Pair &pair) {
       page.text(titles[row], 10, top + kHead / 2.0, kCaptionSize, Align::left, true);
       for (std::size_t k = 0; k < 3; k++) {
         const int left = int(k) * (kPageWidth - kWidth) / 2;
-        page.text(pictures->places[k], left + kWidth - 10, top + kHead / 2.0, 16, Align::right);
+        page.text(pictures->places[k] + (row == 0 ? pictures->directions[k] : ""), left + kWidth - 10,
+                  top + kHead / 2.0, 16, Align::right);
         page.picture(pictures->rows[row][k], left, top + kHead);
       }
       top += kHead + kHeight;
       if (row == 1) {
-        page.colour_bar(kBarLeft, top + 14, kBarWidth, pair.scale, field_colour,
-                        pair.label + (pair.scale.logarithmic ? ", logarithmic" : ""));
+        page.colour_bar(kBarLeft, top + 14, kBarWidth, pair.scale, field_colour, pair.axis);
         top += kFoot;
       }
     }
     page.colour_bar(kBarLeft, top + 14, kBarWidth, pictures->errors, error_colour, "difference, % of the range");
-    page.rectangle(kBarLeft + kBarWidth + 60, top + 14, 16, 16, no_colour());
-    page.text("in one mesh only", kBarLeft + kBarWidth + 60 + 24, top + 22, 16);
+    draw_no_colour(page, "in one mesh only", top + 14);
   };
   return figure;
 }

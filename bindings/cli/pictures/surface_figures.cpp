@@ -20,8 +20,7 @@ void draw_captions(Canvas &page, const Pair &pair) {
 }
 
 void draw_colour_bar(Canvas &page, const Pair &pair, int y) {
-  page.colour_bar(kBarLeft, y, kBarWidth, pair.scale, field_colour,
-                  pair.label + (pair.scale.logarithmic ? ", logarithmic" : ""));
+  page.colour_bar(kBarLeft, y, kBarWidth, pair.scale, field_colour, pair.axis);
 }
 
 // Which way the axes go.
@@ -94,6 +93,7 @@ Figure surface_figure(const Pair &pair, const View &view) {
     for (int side = 0; side < 2; side++) page.picture((*images)[std::size_t(side)], panel_left(side), kHead);
     draw_axes(page, view, kPageWidth / 2.0, kHead + kSurfaceHeight - 50);
     draw_colour_bar(page, pair, kHead + kSurfaceHeight + 12);
+    if (!pair.whole) draw_no_colour(page, "without a value", kHead + kSurfaceHeight + 12);
   };
   return figure;
 }
@@ -105,22 +105,25 @@ Figure isosurface_figure(const Pair &pair, const View &from) {
   };
   View view = from;
   fit(view, box_points(pair), kPanelWidth, kIsoHeight);
+  const auto shadows = std::make_shared<std::array<Image, 2>>(
+      std::array<Image, 2>{shadow_of(surface_of(pair.original), view), shadow_of(surface_of(pair.simplified), view)});
   const auto rows = std::make_shared<std::vector<Row>>();
   for (const double value : iso_values(pair))
     rows->push_back(
         {value, {iso_panel(pair, pair.original, view, value), iso_panel(pair, pair.simplified, view, value)}});
   Figure figure{"isosurfaces", "Isosurfaces", "", kPageWidth, kHead + (kIsoHeight + kHead) * int(rows->size()), {}};
   figure.caption =
-      "Where the field has a value, at three values from its histogram (the paper's Figure 6). The thin lines are the "
-      "box "
-      "around the original.";
-  figure.draw = [rows, pair, view](Canvas &page) {
+      "Where the field has a value, at three values from its histogram (the paper's Figure 6), in the shadow of the "
+      "mesh. "
+      "The thin lines are the box around the original.";
+  figure.draw = [rows, shadows, pair, view](Canvas &page) {
     draw_captions(page, pair);
     int top = kHead;
     for (const Row &row : *rows) {
       page.text(pair.label + " = " + number_text(row.value), kPageWidth / 2.0, top + 12, 16, Align::centre);
       for (int side = 0; side < 2; side++) {
         const IsoPanel &panel = row.sides[side];
+        page.picture((*shadows)[std::size_t(side)], panel_left(side), top + kHead / 2);
         draw_box(page, pair, view, panel_left(side), top + kHead / 2);
         page.picture(panel.image, panel_left(side), top + kHead / 2);
         const std::string size =

@@ -13,8 +13,30 @@
 namespace cli {
 namespace {
 
-constexpr double kMeanDepth = 1.3;  // e-foldings that a ray through the whole original meets on average
+constexpr double kMeanDepth = 0.8;  // e-foldings that a ray meets in the original on average
 constexpr double kFlattening = 0.06;
+
+// A sample is in one pixel's thin layer and beside the next one's: the grain of that is smoothed away, over 3 x 3
+// pixels.
+Image smoothed(const Image &image) {
+  constexpr int weight[3] = {1, 2, 1};
+  Image out(image.width, image.height);
+  for (int y = 1; y + 1 < image.height; y++) {
+    for (int x = 1; x + 1 < image.width; x++) {
+      int sum[4] = {0, 0, 0, 0};
+      for (int k = 0; k < 9; k++) {
+        const std::uint8_t *pixel = image.pixel(x + k % 3 - 1, y + k / 3 - 1);
+        const int opaque = weight[k % 3] * weight[k / 3] * pixel[3];
+        for (int c = 0; c < 3; c++) sum[c] += opaque * pixel[c];
+        sum[3] += opaque;
+      }
+      if (sum[3] == 0) continue;
+      for (int c = 0; c < 3; c++) out.pixel(x, y)[c] = static_cast<std::uint8_t>(sum[c] / sum[3]);
+      out.pixel(x, y)[3] = static_cast<std::uint8_t>(sum[3] / 16);
+    }
+  }
+  return out;
+}
 
 double determinant(const Vector &a, const Vector &b, const Vector &c) { return dot(a, cross(b, c)); }
 Vector minus(const Vector &a, const Vector &b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
@@ -85,6 +107,16 @@ void Volume::fill(const Sight &sight) {
   }
 }
 
+double Volume::mean_part() const {
+  std::size_t inside = 0, rays = 0;
+  for (auto ray = values_.begin(); ray != values_.end(); ray += depths_) {
+    const auto samples = std::size_t(std::count_if(ray, ray + depths_, [](float v) { return std::isfinite(v); }));
+    inside += samples;
+    rays += samples > 0 ? 1 : 0;
+  }
+  return rays > 0 ? double(inside) / double(rays) / depths_ : 1;
+}
+
 Image Volume::image(const std::vector<double> &opacity, const Scale &scale) const {
   Image image(view_.width, view_.height);
   const double bins = double(opacity.size());
@@ -106,7 +138,7 @@ Image Volume::image(const std::vector<double> &opacity, const Scale &scale) cons
         blend(image.pixel(x, y), {sum[0] / (1 - clear), sum[1] / (1 - clear), sum[2] / (1 - clear)}, 1 - clear);
     }
   }
-  return image;
+  return smoothed(image);
 }
 
 std::vector<double> opacity_by_rarity(const Volume &volume, const Scale &scale, int bins) {
@@ -122,7 +154,7 @@ std::vector<double> opacity_by_rarity(const Volume &volume, const Scale &scale, 
     opacity.push_back(1 / (crowd + kFlattening));
     mean += whole > 0 ? opacity.back() * count / whole : 0;
   }
-  for (double &o : opacity) o = mean > 0 ? kMeanDepth * o / mean : 0;
+  for (double &o : opacity) o = mean > 0 ? kMeanDepth * o / mean / volume.mean_part() : 0;
   return opacity;
 }
 

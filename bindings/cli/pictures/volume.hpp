@@ -25,6 +25,8 @@ class Volume {
   static double place(int x, int y);
 
   const std::vector<float> &values() const { return values_; }  // NaN outside of the mesh
+  // The part of the depth that is in the mesh, of the rays that meet it, in the mean.
+  double mean_part() const;
   // From front to back; opacity of a value over the whole depth, in e-foldings.
   Image image(const std::vector<double> &opacity, const Scale &scale) const;
 

@@ -38,19 +38,22 @@ Figure volume_figure(const Pair &pair, const View &from) {
   volume = Volume(view, surface.points, kDepths);
   volume.fill(pair.simplified);
   (*images)[1] = volume.image(opacity, pair.scale);
+  const auto shadows = std::make_shared<std::array<Image, 2>>(
+      std::array<Image, 2>{shadow_of(surface, view), shadow_of(surface_of(pair.simplified), view)});
   Figure figure{"volume", "Inside", "", kPageWidth, kHead + kHeight + kFoot, {}};
   figure.caption =
       "Through the volume as through coloured smoke (the paper's Figure 9), denser where a value is rarer in the "
       "original, "
-      "so that what differs from its surroundings shows. One camera, one colour map, one density.";
-  figure.draw = [images, pair](Canvas &page) {
+      "so that what differs from its surroundings shows, in the shadow of the mesh. One camera, one colour map, one "
+      "density.";
+  figure.draw = [images, shadows, pair](Canvas &page) {
     for (int side = 0; side < 2; side++) {
       const int left = side == 0 ? 0 : kPageWidth - kPanelWidth;
       page.text(pair.captions[side], left + kPanelWidth / 2.0, kHead / 2.0, kCaptionSize, Align::centre, true);
+      page.picture((*shadows)[std::size_t(side)], left, kHead);
       page.picture((*images)[std::size_t(side)], left, kHead);
     }
-    page.colour_bar(kBarLeft, kHead + kHeight + 12, kBarWidth, pair.scale, field_colour,
-                    pair.label + (pair.scale.logarithmic ? ", logarithmic" : ""));
+    page.colour_bar(kBarLeft, kHead + kHeight + 12, kBarWidth, pair.scale, field_colour, pair.axis);
   };
   return figure;
 }
