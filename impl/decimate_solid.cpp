@@ -90,6 +90,7 @@ class SolidDecimator {
       out.scalars.insert(out.scalars.end(), values.begin(), values.end());
       origin.push_back(moved ? -1 : v);
     }
+    job_.poll(1);
     const auto append = [&](const auto &simplices, auto &to) {
       for (auto simplex : simplices) {
         if (simplex[0] < 0) continue;

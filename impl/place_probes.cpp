@@ -119,9 +119,10 @@ class Locator {
  public:
   Locator(const TetComplex &mesh, Job &job) : mesh_(mesh), frames_(&job.memory), tree_(job.memory) {
     Array<Box> boxes(mesh.tets.size(), &job.memory);
-    frames_.resize(mesh.tets.size());
+    frames_.reserve(mesh.tets.size());  // filled as the loop goes: to touch them all takes as long as 50 ms
     for (std::size_t t = 0; t < mesh.tets.size(); t++) {
       if (t % 16384 == 0) job.poll(0.1);
+      frames_.emplace_back();
       if (!mesh.alive(std::int32_t(t))) continue;
       start_ = std::int32_t(t);
       frames_[t] = mesh.frame(std::int32_t(t));
@@ -257,6 +258,7 @@ std::int64_t place_probes(const MeshView &original, const ProbeOptions &options,
   const auto outside = std::count(home.begin(), home.begin() + std::ptrdiff_t(mesh.vertex_probes), -1);
   if (options.project_outside && outside > 0) project(job, home, mesh);
   sort_by_home(0, mesh.vertex_probes, mesh, home);
+  job.poll(0.2);
   sort_by_home(mesh.vertex_probes, home.size(), mesh, home);
   mesh.next_probe.assign(home.size(), -1);
   mesh.first_probe.assign(mesh.tets.size(), -1);

@@ -19,6 +19,7 @@ class StarLists {
   template <std::size_t corners>
   StarLists(Span<const std::array<std::int32_t, corners>> simplices, std::size_t vertices, Job &job)
       : StarLists(vertices, simplices.size() * corners * 5 / 4, job) {
+    job.poll(0);
     for (const auto &s : simplices)
       for (std::int32_t v : s) count_[std::size_t(v)]++;
     std::size_t next = 0;
