@@ -174,13 +174,13 @@ std::string run(const Attempt &attempt, Problem &problem, Worker &worker, Remesh
   request.points = input.points;
   request.insert = input.insert;
   request.triangles = input.triangles;
-  request.progress_begin = problem.progress;
-  request.progress_end = progress_after(result.report.attempts);
+  const double begin = problem.progress, end = progress_after(result.report.attempts);
+  request.progress = [begin, end](double fraction) { return begin + (end - begin) * fraction; };
   TetgenReply reply(problem.job.memory);
   worker.tetrahedralize(request, time_share(input), problem.job, reply);
   result.report.worker_peak_bytes = std::max(result.report.worker_peak_bytes, reply.peak_bytes);
   if (reply.code != 0) return reply.failure;
-  return accept_reply(input, problem.surface, problem.samples, reply, request.progress_end, problem.job, result);
+  return accept_reply(input, problem.surface, problem.samples, reply, end, problem.job, result);
 }
 
 }  // namespace

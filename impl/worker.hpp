@@ -1,9 +1,11 @@
-// Runs tetlod-remesh: spawn, shared memory, deadline, cancel, death. Nothing that the worker does, or fails to
-// do, reaches the host but as a value or a Status.
+// Runs tetlod-remesh, one process of it or several at once: spawn, shared memory, deadline, cancel, death. Nothing that
+// the worker does, or fails to do, reaches the host but as a value or a Status.
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "job.hpp"
 #include "mesh.hpp"
@@ -17,8 +19,8 @@ struct TetgenRequest {
   Span<const Vec3> points;    ///< boundary vertices first, then samples (unless they come in `insert`)
   Span<const Vec3> insert;    ///< samples for the -i switch, usually empty
   Span<const Triangle> triangles;
-  double progress_begin = 0;  ///< what the job is told while TetGen runs
-  double progress_end = 1;
+  /// What the job is told while TetGen runs, from the fraction of the call that is done; empty: that fraction.
+  std::function<double(double)> progress;
 };
 
 /// What came back, copied into the host's memory; sizes and indices are already checked against each other, and
@@ -38,12 +40,15 @@ constexpr int worker_died = 1001;       ///< crash, kill
 constexpr int worker_lied = 1002;       ///< a reply that contradicts itself
 constexpr int worker_exhausted = 1003;  ///< its time share for this attempt ran out; it was killed
 
-/// A worker process, started when first needed, alive between calls, ended with the object. Used by one
-/// thread at a time. After fork() the child starts a worker of its own and leaves the parent's alone.
+class WorkerProcess;
+
+/// Worker processes, each started when first needed (1.3 ms), alive between calls (0.13 ms for a tetrahedron), ended
+/// with the object. Used by one thread at a time. After fork() the child starts processes of its own and leaves the
+/// parent's alone.
 class Worker {
  public:
   /// path: the executable; empty: TETLOD_REMESHER (secure_getenv), else beside this library, else libexec.
-  /// address_space: limit of the process in bytes, 0: none.
+  /// address_space: limit of each process in bytes, 0: none.
   explicit Worker(std::string path = {}, std::uint64_t address_space = 0);
   ~Worker();
   Worker(const Worker &) = delete;
@@ -55,9 +60,20 @@ class Worker {
   /// memory_limit. Everything else that goes wrong is a code in the reply.
   void tetrahedralize(const TetgenRequest &request, double seconds, Job &job, TetgenReply &reply);
 
+  /// The same in two steps, so that several processes, numbered from 0, have a call each: begin() with one that has
+  /// none, and finish_any() gives the number of one whose call is over. What the request points to has to live until
+  /// then. When one of them throws all calls are over.
+  void begin(std::size_t process, const TetgenRequest &request, double seconds, Job &job);
+  std::size_t finish_any(Job &job, TetgenReply &reply);
+  /// Kills the processes that are in the middle of a call.
+  void abandon() noexcept;
+
  private:
-  class Process;
-  std::unique_ptr<Process> process_;
+  void forget_parents();
+  void wait_for_something() const;
+  void refuse_exhaustion(const TetgenReply &reply) const;
+
+  std::vector<std::unique_ptr<WorkerProcess>> processes_;
   std::string path_;
   std::uint64_t address_space_;
 };

@@ -1,0 +1,191 @@
+#include "worker_process.hpp"
+
+#include <signal.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "status.hpp"
+#include "worker_files.hpp"
+
+namespace tetlod {
+
+namespace {
+
+constexpr int turn_milliseconds = 20;    // between two polls of the job
+constexpr double greeting_seconds = 30;  // for a loaded machine; usually 1 ms
+
+template <std::size_t n>
+std::string bounded(const char (&characters)[n]) {
+  return std::string(characters, ::strnlen(characters, n));
+}
+
+protocol::Call call_message(const TetgenRequest &request) {
+  protocol::Call call;
+  call.points = std::int64_t(request.points.size());
+  call.inserted = std::int64_t(request.insert.size());
+  call.triangles = std::int64_t(request.triangles.size());
+  for (const std::int64_t count : {call.points, call.inserted, call.triangles, call.points + call.inserted})
+    if (!is_count(count)) fail(Status::mesh_too_large, "more than %lld points to remesh", (long long)max_count);
+  if (std::strlen(request.switches) >= sizeof call.switches) fail(Status::internal, "too many switches");
+  std::strcpy(call.switches, request.switches);
+  return call;
+}
+
+}  // namespace
+
+WorkerProcess::WorkerProcess(std::string path, std::uint64_t address_space)
+    : path_(std::move(path)),
+      address_space_(address_space),
+      request_(shared_file("tetlod-request")),
+      response_(shared_file("tetlod-response")) {}
+
+std::array<pollfd, 3> WorkerProcess::events() const {
+  return {{{child_->control(), POLLIN, 0}, {child_->output(), POLLIN, 0}, {child_->handle(), POLLIN, 0}}};
+}
+
+void WorkerProcess::end() noexcept {
+  call_.reset();
+  child_.reset();
+}
+
+template <class Message>
+bool WorkerProcess::send(const Message &message) const {
+  return ::send(child_->control(), &message, sizeof message, MSG_NOSIGNAL | MSG_DONTWAIT) == sizeof message;
+}
+
+template <class Message>
+WorkerProcess::Answer WorkerProcess::receive(Message &message, const Patience &patience, double cpu_before) {
+  const bool ended = child_->has_ended();  // asked before: the last message may come just before the end
+  const ssize_t size = ::recv(child_->control(), &message, sizeof message, MSG_DONTWAIT | MSG_TRUNC);
+  if (size == ssize_t(sizeof message)) return Answer::message;
+  if (size > 0) return Answer::nonsense;
+  const bool nothing_yet = size < 0 && (errno == EAGAIN || errno == EINTR);
+  if (ended || !nothing_yet) return Answer::end;
+  return patience.is_over(*child_, cpu_before) ? Answer::silence : Answer::nothing_yet;
+}
+
+void WorkerProcess::ensure(const TetgenRequest &request, Job &job) {
+  if (runs()) return;
+  output_ = {};
+  child_ = nullptr;  // the old one is reaped before there is a new one
+  child_ = std::make_unique<ChildProcess>(path_, request_, response_);
+  protocol::Start start;
+  start.host_pid = ::getpid();
+  start.address_space = address_space_;
+  send(start);  // a program that has ended already is noticed below
+  const auto &progress = request.progress;
+  const Patience patience(greeting_seconds / idle_worth, greeting_seconds,
+                          [&](double) { return progress ? progress(0) : 0; });
+  protocol::Hello hello;
+  const Answer answer = wait_for_greeting(hello, patience, job);
+  check_greeting(answer, hello, job);
+}
+
+WorkerProcess::Answer WorkerProcess::wait_for_greeting(protocol::Hello &hello, const Patience &patience, Job &job) {
+  for (;;) {
+    const Answer answer = receive(hello, patience, 0);
+    if (answer != Answer::nothing_yet) return answer;
+    std::array<pollfd, 3> waited_for = events();
+    ::poll(waited_for.data(), waited_for.size(), turn_milliseconds);
+    output_.drain(*child_, job);
+    patience.poll(job);
+  }
+}
+
+void WorkerProcess::check_greeting(Answer answer, const protocol::Hello &hello, Job &job) {
+  if (answer == Answer::end) {
+    const Ending ending = child_->end();
+    output_.drain(*child_, job);
+    output_.flush(job);
+    throw Error(Status::backend_missing, path_ + " ended with " + ending.text() + " before its greeting; " +
+                                             (output_.last_line().empty() ? "it said nothing" : output_.last_line()));
+  }
+  if (answer == Answer::silence)
+    fail(Status::backend_missing, "%s did not greet within %d seconds", path_.c_str(), int(greeting_seconds));
+  if (answer == Answer::nonsense || hello.magic != protocol::magic)
+    fail(Status::backend_missing, "%s is not tetlod-remesh", path_.c_str());
+  const std::string found = bounded(hello.tetlod_version);
+  if (hello.version != protocol::version || found != TETLOD_VERSION)
+    fail(Status::backend_missing, "%s is version %s (protocol %u), this library is version %s (protocol %u)",
+         path_.c_str(), found.c_str(), hello.version, TETLOD_VERSION, protocol::version);
+}
+
+void WorkerProcess::send_request(const Call &call, Job &job) {
+  discard_files();
+  write_arrays(request_, call.request, call.patience, job);
+  protocol::Call message = call_message(call.request);
+  message.number = ++calls_;
+  send(message);  // to a worker that has died in between: noticed when receiving
+}
+
+/// Gives the memory back; also before a call, after one that was interrupted.
+void WorkerProcess::discard_files() const {
+  if (::ftruncate(request_.number(), 0) != 0 || ::ftruncate(response_.number(), 0) != 0)
+    fail(Status::internal, "cannot empty the files shared with the remeshing process");
+}
+
+void WorkerProcess::begin(const TetgenRequest &request, double seconds, Job &job) {
+  const bool used_before = runs();
+  const double expected = expected_seconds(request.points.size() + request.insert.size());
+  ensure(request, job);
+  call_.emplace(Call{request, seconds, Patience(seconds, expected, request.progress), 0, used_before});
+  output_.start_call();
+  send_request(*call_, job);
+  call_->cpu_before = std::max(child_->cpu_seconds(), 0.0);
+}
+
+bool WorkerProcess::finish(Job &job, TetgenReply &reply) {
+  protocol::Reply answer;
+  const Answer kind = receive(answer, call_->patience, call_->cpu_before);
+  if (kind == Answer::nothing_yet) {
+    output_.drain(*child_, job);
+    call_->patience.poll(job);
+    return false;
+  }
+  reply.code = 0;
+  reply.failure.clear();
+  settle(kind, answer, job, reply);
+  // Perhaps it was killed while idle, and what a result is must not depend on that: a fresh one decides.
+  if (reply.code == worker_died && call_->used_before) {
+    const Call again = *call_;
+    begin(again.request, again.seconds, job);
+    return false;
+  }
+  call_.reset();
+  return true;
+}
+
+void WorkerProcess::settle(Answer kind, const protocol::Reply &answer, Job &job, TetgenReply &reply) {
+  if (kind == Answer::end) return give_up_dead(job, reply);
+  if (kind == Answer::nonsense) return give_up(worker_lied, "sent a message of another length", reply);
+  if (kind == Answer::silence)
+    return give_up(worker_exhausted, "took more than " + number(call_->seconds) + " seconds", reply);
+  if (answer.number != calls_) return give_up(worker_lied, "answered another call", reply);
+  output_.drain(*child_, job);
+  reply.peak_bytes = answer.peak_bytes;
+  if (answer.code != 0) return give_up(answer.code, bounded(answer.text), reply);
+  if (const char *lie = read_arrays(response_, answer, call_->patience, job, reply))
+    return give_up(worker_lied, std::string("answered with ") + lie, reply);
+  discard_files();
+}
+
+void WorkerProcess::give_up(int code, const std::string &failure, TetgenReply &reply) {
+  child_.reset();
+  reply.code = code;
+  reply.failure = failure;
+}
+
+void WorkerProcess::give_up_dead(Job &job, TetgenReply &reply) {
+  const Ending ending = child_->end();
+  output_.drain(*child_, job);
+  output_.flush(job);
+  const bool perhaps_memory = ending.known && ending.by_signal && ending.status == SIGKILL;
+  give_up(worker_died, "died with " + ending.text() + (perhaps_memory ? ", perhaps for want of memory" : ""), reply);
+}
+
+}  // namespace tetlod
