@@ -2,205 +2,202 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/vector_relational.hpp>
-#include <random>
+#include <memory>
+#include <numeric>
+#include <optional>
 #include <utility>
+#include <vector>
 
-#include "geometry.hpp"
+#include "remesh_attempts.hpp"
 #include "remesh_checks.hpp"
-#include "remesh_frame.hpp"
+#include "remesh_parts.hpp"
 #include "remesh_result.hpp"
 #include "status.hpp"
-#include "surface_distance.hpp"
 
 namespace tetlod {
 
 namespace {
-
-/// The same for every attempt of a call.
-struct Problem {
-  const Surface &surface;
-  Span<const Vec3> samples;
-  SurfaceFacts facts;
-  Job &job;
-  double progress;  ///< at the begin of the attempt
-};
-
-/// p: the boundary is given. Y: it is kept. A: number the regions. M0/1: do not merge points. T1e-5: what counts as
-/// flat; the default 1e-8 may start from a tet of rounding noise. J: keep unused points, so numbers stay. z: from 0. Q.
-std::string switches(const SurfaceFacts &facts, bool own_tolerance) {
-  return std::string("pY") + (facts.components > 1 ? "A" : "") + "M0/1" + (own_tolerance ? "T1e-5" : "") + "JzQ";
-}
-
-bool holds(const Box &box, const Vec3 &p) {
-  return glm::all(glm::lessThanEqual(box.low, p)) && glm::all(glm::lessThanEqual(p, box.high));
-}
-
-/// Not one beyond the surface's box: no tet would use it, and far away ones make TetGen loop or fail.
-void add_sample(const Problem &problem, std::size_t i, const Frame &frame, Array<Vec3> &points,
-                Array<std::int32_t> &number) {
-  if (!holds(problem.facts.box, problem.samples[i])) return;
-  points.push_back(frame.into(problem.samples[i]));
-  number.push_back(std::int32_t(problem.surface.points.size() + i));
-}
-
-/// The boundary alone, in a frame.
-RemeshInput boundary_input(const Problem &problem, const Frame &frame) {
-  RemeshInput input(problem.job.memory);
-  input.frame = frame;
-  input.switches = switches(problem.facts, true);
-  input.triangles.assign(problem.surface.triangles.begin(), problem.surface.triangles.end());
-  input.points.reserve(problem.surface.points.size() + problem.samples.size());
-  input.number.reserve(problem.surface.points.size() + problem.samples.size());
-  for (std::size_t i = 0; i < problem.surface.points.size(); i++) {
-    input.points.push_back(frame.into(problem.surface.points[i]));
-    input.number.push_back(std::int32_t(i));
-  }
-  return input;
-}
-
-RemeshInput framed_input(const Problem &problem, const Frame &frame) {
-  RemeshInput input = boundary_input(problem, frame);
-  for (std::size_t i = 0; i < problem.samples.size(); i++) add_sample(problem, i, frame, input.points, input.number);
-  return input;
-}
-
-RemeshInput plain(const Problem &problem) { return framed_input(problem, uniform_frame(problem.facts.box)); }
-
-RemeshInput facets_reversed(const Problem &problem) {
-  RemeshInput input = plain(problem);
-  std::reverse(input.triangles.begin(), input.triangles.end());
-  return input;
-}
-
-/// Each axis by a power of two of its own: the metric changes in which TetGen calls a tet bad.
-RemeshInput axes_stretched(const Problem &problem) { return framed_input(problem, stretched_frame(problem.facts.box)); }
-
-RemeshInput default_tolerance(const Problem &problem) {
-  RemeshInput input = plain(problem);
-  input.switches = switches(problem.facts, false);
-  return input;
-}
-
-/// A permutation that is the same everywhere: std::shuffle is not.
-Array<std::int32_t> shuffled(std::size_t count, Memory &memory) {
-  Array<std::int32_t> order(count, &memory);
-  for (std::size_t i = 0; i < count; i++) order[i] = std::int32_t(i);
-  std::mt19937_64 random(1);
-  for (std::size_t i = count; i > 1; i--) std::swap(order[i - 1], order[std::size_t(random() % i)]);
-  return order;
-}
-
-RemeshInput vertices_shuffled(const Problem &problem) {
-  const RemeshInput input = plain(problem);
-  RemeshInput mixed = boundary_input(problem, input.frame);
-  const Array<std::int32_t> target = shuffled(input.points.size(), problem.job.memory);
-  mixed.points.resize(input.points.size());
-  mixed.number.resize(input.number.size());
-  for (std::size_t i = 0; i < target.size(); i++) {
-    mixed.points[std::size_t(target[i])] = input.points[i];
-    mixed.number[std::size_t(target[i])] = input.number[i];
-  }
-  for (Triangle &t : mixed.triangles)
-    for (std::int32_t &corner : t) corner = target[std::size_t(corner)];
-  return mixed;
-}
-
-RemeshInput samples_inserted_late(const Problem &problem) {
-  RemeshInput input = boundary_input(problem, uniform_frame(problem.facts.box));
-  for (std::size_t i = 0; i < problem.samples.size(); i++)
-    add_sample(problem, i, input.frame, input.insert, input.insert_number);
-  input.switches += "i";
-  return input;
-}
-
-/// Nearer to the surface than half the longest edge of the nearest triangle.
-bool crowds(const Vec3 &p, const Surface &surface, const NearestTriangle &triangles) {
-  const NearestPoint at = triangles.nearest(p);
-  if (at.triangle < 0) return false;
-  const Triangle &t = surface.triangles[std::size_t(at.triangle)];
-  const Vec3 &a = surface.points[std::size_t(t[0])], &b = surface.points[std::size_t(t[1])],
-             &c = surface.points[std::size_t(t[2])];
-  return 4 * at.distance * at.distance < std::max({length2(b - a), length2(c - b), length2(a - c)});
-}
-
-RemeshInput without_crowding_samples(const Problem &problem) {
-  RemeshInput input = boundary_input(problem, uniform_frame(problem.facts.box));
-  const NearestTriangle triangles(problem.surface.points, problem.surface.triangles, 8, problem.job);
-  for (std::size_t i = 0; i < problem.samples.size(); i++) {
-    if (i % 256 == 0) problem.job.poll(problem.progress);
-    if (!crowds(problem.samples[i], problem.surface, triangles))
-      add_sample(problem, i, input.frame, input.points, input.number);
-  }
-  return input;
-}
-
-RemeshInput without_samples(const Problem &problem) {
-  return boundary_input(problem, uniform_frame(problem.facts.box));
-}
-
-struct Attempt {
-  const char *name;
-  RemeshInput (*input)(const Problem &);
-  bool about_samples;  ///< the same as the first attempt when there are none
-};
-
-/// The ladder. The first two retries rescued 14 of 14 failures of valid surfaces.
-constexpr Attempt attempts[] = {
-    {"plain", plain, false},
-    {"facets reversed", facets_reversed, false},
-    {"axes stretched", axes_stretched, false},
-    {"default tolerance", default_tolerance, false},
-    {"vertices shuffled", vertices_shuffled, false},
-    {"samples inserted late", samples_inserted_late, true},
-    {"without samples near the boundary", without_crowding_samples, true},
-    {"without samples", without_samples, true},
-};
 
 /// Long enough for a machine that is loaded, short enough to end an endless loop.
 double time_share(const RemeshInput &input) {
   return std::max(10.0, 50 * expected_seconds(input.points.size() + input.insert.size()));
 }
 
-/// Where the progress of the stage is when so many attempts are over: the first usually is the only one.
+/// How far a part has got when so many attempts are over: the first usually is the only one.
 double progress_after(int count) { return count ? 1 - 0.1 * std::ldexp(1.0, 1 - count) : 0; }
 
-/// What is wrong with the answer, or an empty text.
-std::string run(const Attempt &attempt, Problem &problem, Worker &worker, RemeshResult &result) {
-  problem.progress = progress_after(result.report.attempts++);
-  const RemeshInput input = attempt.input(problem);
-  TetgenRequest request;
-  request.switches = input.switches.c_str();
-  request.points = input.points;
-  request.insert = input.insert;
-  request.triangles = input.triangles;
-  const double begin = problem.progress, end = progress_after(result.report.attempts);
-  request.progress = [begin, end](double fraction) { return begin + (end - begin) * fraction; };
-  TetgenReply reply(problem.job.memory);
-  worker.tetrahedralize(request, time_share(input), problem.job, reply);
-  result.report.worker_peak_bytes = std::max(result.report.worker_peak_bytes, reply.peak_bytes);
-  if (reply.code != 0) return reply.failure;
-  return accept_reply(input, problem.surface, problem.samples, reply, end, problem.job, result);
-}
+/// How far all parts have got together.
+class Progress {
+ public:
+  explicit Progress(const RemeshParts &parts) : share_(parts.count()), done_(parts.count(), 0) {
+    double whole = 0;
+    for (std::size_t p = 0; p < share_.size(); p++) whole += double(parts.size(p));
+    for (std::size_t p = 0; p < share_.size(); p++) share_[p] = double(parts.size(p)) / whole;
+  }
+  /// The fraction of the whole, now that so much of the part is done.
+  double set(std::size_t part, double fraction) {
+    done_[part] = fraction;
+    return std::inner_product(share_.begin(), share_.end(), done_.begin(), 0.0);
+  }
+
+ private:
+  std::vector<double> share_, done_;
+};
+
+/// A part on its way through the attempts.
+class Climb {
+ public:
+  Climb(std::size_t part, const Surface &surface, Span<const Vec3> samples, std::int64_t components, Progress &progress,
+        Job &job)
+      : part_(part), problem_{surface, samples, box_of(surface.points), components, job}, progress_(progress) {}
+  Climb(std::size_t part, std::unique_ptr<RemeshPart> own, Progress &progress, Job &job)
+      : Climb(part, own->surface, own->samples, own->components, progress, job) {
+    own_ = std::move(own);
+  }
+
+  std::size_t part() const { return part_; }
+  int attempts() const { return attempts_; }
+  /// What was wrong with each attempt.
+  const std::string &failures() const { return failures_; }
+
+  /// Hands the next attempt to the worker. False: there is none left.
+  bool begin(Worker &worker, std::size_t process) {
+    const Span<const RemeshAttempt> all = remesh_attempts();
+    while (next_ < all.size() && all[next_].about_samples && problem_.samples.empty()) next_++;
+    if (next_ == all.size()) return false;
+    const double from = progress_after(attempts_++), to = progress_after(attempts_);
+    attempt_ = &all[next_++];
+    input_.emplace(attempt_->input(problem_, progress_.set(part_, from)));
+    TetgenRequest request;
+    request.switches = input_->switches.c_str();
+    request.points = input_->points;
+    request.insert = input_->insert;
+    request.triangles = input_->triangles;
+    request.progress = [this, from, to](double done) { return progress_.set(part_, from + (to - from) * done); };
+    worker.begin(process, request, time_share(*input_), problem_.job);
+    return true;
+  }
+
+  /// Whether the answer to the attempt is as it should be: then it is the result.
+  bool accept(TetgenReply &reply, RemeshResult &result) {
+    const double fraction = progress_.set(part_, progress_after(attempts_));
+    std::string failure = reply.failure;
+    if (reply.code == 0)
+      failure = accept_reply(*input_, problem_.surface, problem_.samples, reply, fraction, problem_.job, result);
+    if (failure.empty()) return true;
+    failures_ += std::string(failures_.empty() ? "" : "; ") + attempt_->name + ": " + failure;
+    if (problem_.job.log) problem_.job.log(1, (std::string("remeshing, ") + attempt_->name + ": " + failure).c_str());
+    return false;
+  }
+
+ private:
+  std::size_t part_;
+  std::unique_ptr<RemeshPart> own_;  // what the problem is of, unless that is the whole
+  RemeshProblem problem_;
+  Progress &progress_;
+  const RemeshAttempt *attempt_ = nullptr;
+  std::size_t next_ = 0;
+  int attempts_ = 0;
+  std::optional<RemeshInput> input_;
+  std::string failures_;
+};
+
+/// All parts, as many at once as there are threads. What becomes of one does not depend on the others.
+class Remeshing {
+ public:
+  Remeshing(const Surface &surface, const SurfaceFacts &facts, Span<const Vec3> samples, const RemeshParts &parts,
+            Worker &worker, Job &job)
+      : surface_(surface),
+        facts_(facts),
+        samples_(samples),
+        parts_(parts),
+        worker_(worker),
+        job_(job),
+        progress_(parts),
+        waiting_(parts.count()),
+        climbs_(std::min(parts.count(), std::size_t(job.parallel.threads()))),
+        peak_bytes_(climbs_.size(), 0) {
+    std::iota(waiting_.begin(), waiting_.end(), 0);
+    std::stable_sort(waiting_.begin(), waiting_.end(),
+                     [&](std::size_t a, std::size_t b) { return parts.size(a) < parts.size(b); });
+    for (std::size_t p = 0; p < parts.count(); p++) results_.emplace_back(job.memory);
+  }
+  /// After an exception calls may be under way.
+  ~Remeshing() { worker_.abandon(); }
+  Remeshing(const Remeshing &) = delete;
+  Remeshing &operator=(const Remeshing &) = delete;
+
+  RemeshResult run() {
+    for (std::size_t process = 0; process < climbs_.size(); process++) start(process);
+    for (std::size_t left = parts_.count(); left > 0;) left -= finish_any();
+    RemeshResult whole(job_.memory);
+    if (results_.size() == 1)
+      whole = std::move(results_[0]);
+    else
+      parts_.join({results_.data(), results_.size()}, whole);
+    whole.report.attempts = attempts_;
+    whole.report.worker_peak_bytes = std::accumulate(peak_bytes_.begin(), peak_bytes_.end(), std::uint64_t(0));
+    return whole;
+  }
+
+ private:
+  /// The largest of those that wait first, so that at the end no process works alone for long.
+  void start(std::size_t process) {
+    const std::size_t part = waiting_.back();
+    waiting_.pop_back();
+    if (parts_.count() == 1)
+      climbs_[process] = std::make_unique<Climb>(part, surface_, samples_, facts_.components, progress_, job_);
+    else
+      climbs_[process] =
+          std::make_unique<Climb>(part, std::make_unique<RemeshPart>(parts_.part(part)), progress_, job_);
+    climbs_[process]->begin(worker_, process);
+  }
+
+  /// The number of parts, one or none, that are done with it.
+  std::size_t finish_any() {
+    TetgenReply reply(job_.memory);
+    const std::size_t process = worker_.finish_any(job_, reply);
+    Climb &climb = *climbs_[process];
+    peak_bytes_[process] = std::max(peak_bytes_[process], reply.peak_bytes);
+    const bool accepted = climb.accept(reply, results_[climb.part()]);
+    attempts_ = std::max(attempts_, climb.attempts());
+    if (!accepted) {
+      if (!climb.begin(worker_, process)) fail_for(climb);
+      return 0;
+    }
+    climbs_[process] = nullptr;
+    if (!waiting_.empty()) start(process);
+    return 1;
+  }
+
+  [[noreturn]] void fail_for(const Climb &climb) const {
+    const std::string which = parts_.count() == 1 ? "" : text("part %zu of %zu, ", climb.part() + 1, parts_.count());
+    throw Error(Status::remesh,
+                "the simplified boundary could not be filled with tets (" + which + climb.failures() + ")");
+  }
+
+  const Surface &surface_;
+  const SurfaceFacts &facts_;
+  Span<const Vec3> samples_;
+  const RemeshParts &parts_;
+  Worker &worker_;
+  Job &job_;
+  Progress progress_;
+  std::vector<std::size_t> waiting_;
+  std::vector<std::unique_ptr<Climb>> climbs_;  // of each process
+  std::vector<std::uint64_t> peak_bytes_;       // of each process
+  std::vector<RemeshResult> results_;           // of each part
+  std::int32_t attempts_ = 0;
+};
 
 }  // namespace
 
-void remesh(const Surface &surface, Span<const Vec3> samples, Worker &worker, Job &job, RemeshResult &result) {
+void remesh(const Surface &surface, Span<const Vec3> samples, Worker &worker, Job &job, RemeshResult &result,
+            std::size_t points_at_once) {
   check_samples(samples);
-  Problem problem = {surface, samples, check_surface(surface, job), job, 0};
-  RemeshResult made(job.memory);
-  std::string failures;
-  for (const Attempt &attempt : attempts) {
-    if (attempt.about_samples && samples.empty()) continue;
-    const std::string failure = run(attempt, problem, worker, made);
-    if (failure.empty()) {
-      result = std::move(made);
-      return;
-    }
-    failures += std::string(failures.empty() ? "" : "; ") + attempt.name + ": " + failure;
-    if (job.log) job.log(1, (std::string("remeshing, ") + attempt.name + ": " + failure).c_str());
-  }
-  throw Error(Status::remesh, "the simplified boundary could not be filled with tets (" + failures + ")");
+  const SurfaceFacts facts = check_surface(surface, job);
+  const RemeshParts parts(surface, facts, samples, points_at_once, job);
+  result = Remeshing(surface, facts, samples, parts, worker, job).run();
 }
 
 }  // namespace tetlod

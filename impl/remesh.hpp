@@ -10,9 +10,9 @@ namespace tetlod {
 
 struct RemeshReport {
   std::int64_t steiner_points = 0;
-  std::int64_t dropped_samples = 0;  ///< samples that the accepted attempt went without
-  std::int32_t attempts = 0;         ///< calls of TetGen, 1 when the first was accepted
-  std::uint64_t worker_peak_bytes = 0;
+  std::int64_t dropped_samples = 0;     ///< samples that the accepted attempt went without
+  std::int32_t attempts = 0;            ///< calls of TetGen, 1 when the first was accepted; of the part that took most
+  std::uint64_t worker_peak_bytes = 0;  ///< of all processes together, if each had its peak at the same time
 };
 
 struct RemeshResult {
@@ -24,8 +24,15 @@ struct RemeshResult {
   RemeshReport report;
 };
 
-/// Throws Status::remesh when every attempt of the ladder failed (the message has what each said), and what
-/// Worker::tetrahedralize throws. The surface must be closed and oriented; it may touch itself at vertices and edges.
-void remesh(const Surface &surface, Span<const Vec3> samples, Worker &worker, Job &job, RemeshResult &result);
+/// A call of TetGen costs as much as some hundred points: small solids go together. It is the same for any number of
+/// threads, as are the results.
+constexpr std::size_t usual_points_at_once = 2048;
+
+/// Solids are remeshed each for itself, as many at once as the job has threads; small ones together, up to
+/// `points_at_once` points and samples. Throws Status::remesh when every attempt of the ladder failed for one of them
+/// (the message has what each said), and what Worker::tetrahedralize throws. The surface must be closed and oriented;
+/// it may touch itself at vertices and edges.
+void remesh(const Surface &surface, Span<const Vec3> samples, Worker &worker, Job &job, RemeshResult &result,
+            std::size_t points_at_once = usual_points_at_once);
 
 }  // namespace tetlod

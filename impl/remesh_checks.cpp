@@ -6,6 +6,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "disjoint_sets.hpp"
 #include "key_file.hpp"
 #include "remesh_frame.hpp"
 #include "status.hpp"
@@ -110,30 +111,6 @@ void check_duplicates(const Surface &surface, Job &job) {
   }
 }
 
-/// Where a component of the surface is looked up; triangles of one component have one root.
-class Components {
- public:
-  Components(std::size_t count, Memory &memory) : parent_(count, &memory), count_(std::int64_t(count)) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  void join(std::int32_t a, std::int32_t b) {
-    a = root(a);
-    b = root(b);
-    if (a == b) return;
-    parent_[std::size_t(std::max(a, b))] = std::min(a, b);
-    count_--;
-  }
-  std::int64_t count() const { return count_; }
-
- private:
-  std::int32_t root(std::int32_t i) {
-    while (parent_[std::size_t(i)] != i) i = parent_[std::size_t(i)] = parent_[std::size_t(parent_[std::size_t(i)])];
-    return i;
-  }
-  Array<std::int32_t> parent_;
-  std::int64_t count_;
-};
-
 /// Edges filed under their smaller vertex: larger vertex, triangle, and the way the triangle runs along.
 struct EdgeKey {
   std::uint64_t key;
@@ -174,9 +151,9 @@ void check_balance(std::size_t vertex, Span<const std::uint64_t> edge) {
 
 /// Two triangles at an edge of two bound the same piece of empty space, so a cavity is never joined to the outside;
 /// at an edge of four it could be.
-std::int64_t count_components(const Surface &surface, Job &job) {
+void find_components(const Surface &surface, Job &job, SurfaceFacts &facts) {
   const KeyFile edges = file_edges(surface, job);
-  Components components(surface.triangles.size(), job.memory);
+  DisjointSets components(surface.triangles.size(), job.memory);
   for (std::size_t v = 0; v < edges.vertices(); v++) {
     if (v % turn == 0) job.poll(0);
     const Span<const std::uint64_t> keys = edges.of(v);
@@ -186,7 +163,9 @@ std::int64_t count_components(const Surface &surface, Job &job) {
       if (last - first == 2) components.join(EdgeKey(keys[first]).triangle(), EdgeKey(keys[first + 1]).triangle());
     }
   }
-  return components.count();
+  facts.components = components.count();
+  facts.component.resize(surface.triangles.size());
+  for (std::size_t t = 0; t < facts.component.size(); t++) facts.component[t] = components.lowest(std::int32_t(t));
 }
 
 void check_volume(Span<const Vec3> points, Span<const Triangle> triangles) {
@@ -216,7 +195,7 @@ SurfaceFacts check_surface(const Surface &surface, Job &job) {
   check_size(surface);
   check_finite(surface);
   check_corners(surface);
-  SurfaceFacts facts;
+  SurfaceFacts facts(job.memory);
   facts.box = box_of(surface);
   check_extents(facts.box);
   const Frame frame = uniform_frame(facts.box);
@@ -226,7 +205,7 @@ SurfaceFacts check_surface(const Surface &surface, Job &job) {
   check_areas(points, surface.triangles);
   check_coincident(points, job.memory);
   check_duplicates(surface, job);
-  facts.components = count_components(surface, job);
+  find_components(surface, job, facts);
   check_volume(points, surface.triangles);
   return facts;
 }

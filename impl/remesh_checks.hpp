@@ -8,8 +8,10 @@
 namespace tetlod {
 
 struct SurfaceFacts {
+  explicit SurfaceFacts(Memory &memory) : component(&memory) {}
   Box box;
-  std::int64_t components = 0;  ///< connected through edges of two triangles; more than one may mean a cavity
+  std::int64_t components = 0;    ///< connected through edges of two triangles; more than one may mean a cavity
+  Array<std::int32_t> component;  ///< of each triangle: the lowest triangle of its component
 };
 
 /// Throws the Status of the first rule that the surface breaks, with the index of the vertex or triangle.
