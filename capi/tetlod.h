@@ -124,7 +124,8 @@ typedef struct tetlod_config {
   void (*release)(void *user, void *pointer, size_t bytes, size_t alignment);
   void *allocator_user;
   uint64_t memory_limit; /* bytes that tetlod may have in use at once in the host, and, apart from that, bytes of
-                            address space of tetlod-remesh; 0: no limit */
+                            address space of each process of tetlod-remesh (there is one a thread at most); 0: no
+                            limit */
   const char *remesher;  /* path of tetlod-remesh; NULL: the environment's TETLOD_REMESHER (not for setuid programs),
                             else  beside the library, else libexec/tetlod. Copied. */
 } tetlod_config;
@@ -152,13 +153,13 @@ typedef struct tetlod_run_report {
   int64_t samples;                           /* what is left, or what collapsing edges left inside */
   int64_t steiner_points;                    /* added by the remeshing [3.4] */
   int64_t points_out, tets_out;
-  int64_t remesh_attempts;  /* calls of TetGen for the boundary that was accepted; 1: it succeeded at once; 0: it was
-                               not needed (TETLOD_EFFORT_ACCURATE) */
+  int64_t remesh_attempts;  /* calls of TetGen for the boundary that was accepted, or the solid of it that took most;
+                               1: it succeeded at once; 0: it was not needed (TETLOD_EFFORT_ACCURATE) */
   int64_t boundary_retries; /* how often the boundary had to be decimated less, because TetGen failed on it */
   double seconds_prepare, seconds_boundary, seconds_decimate, seconds_sample, seconds_cull, seconds_remesh,
       seconds_values, seconds_total;
   uint64_t peak_bytes;           /* of tetlod in the host, the result included, the caller's arrays not */
-  uint64_t worker_peak_bytes;    /* of tetlod-remesh */
+  uint64_t worker_peak_bytes;    /* of tetlod-remesh; of several processes the sum of each one's */
   uint64_t hash;                 /* of the result's bytes */
   double scalar_min, scalar_max; /* of the original's values */
   int64_t inserted_points;       /* inside, after the remeshing (TETLOD_OPT_TARGET_RATIO) */
@@ -237,7 +238,7 @@ TETLOD_API const char *tetlod_stage_name(int32_t stage);
 /* Makes a context; config may be NULL. *out is written on success alone.
  * TETLOD_ERR_STRUCT_SIZE. */
 TETLOD_API tetlod_status tetlod_create(const tetlod_config *config, tetlod_context **out);
-/* Ends a context, its result and its worker process. NULL is allowed. */
+/* Ends a context, its result and its worker processes. NULL is allowed. */
 TETLOD_API void tetlod_destroy(tetlod_context *context);
 
 /* Copies the message of the last call that failed on this context (of this thread, for a NULL context: tetlod_create)

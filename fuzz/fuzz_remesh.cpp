@@ -20,6 +20,7 @@ struct Problem {
   std::vector<Point> points;
   std::vector<Face> triangles;
   std::vector<Point> samples;
+  std::size_t points_at_once = tetlod::usual_points_at_once;
   bool sound = false;  ///< whatever the samples are, as long as they are finite, there is a way
 };
 
@@ -230,7 +231,7 @@ bool remesh(Stage &stage, const Problem &problem) {
                    fill(problem, surface);
                    for (const Point &p : problem.samples) samples.push_back({p[0], p[1], p[2]});
                    result.points.push_back(untouched);
-                   tetlod::remesh(surface, samples, worker(), stage.job(), result);
+                   tetlod::remesh(surface, samples, worker(), stage.job(), result, problem.points_at_once);
                  });
   stage.calm();
   if (status == Status::ok)
@@ -254,8 +255,9 @@ extern "C" int LLVMFuzzerInitialize(int *, char ***) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
   fuzz::Bytes in(data, size);
-  const fuzz::Problem problem = fuzz::decode_problem(in);
+  fuzz::Problem problem = fuzz::decode_problem(in);
   fuzz::Stage stage(in);
+  if (in.one_in(2)) problem.points_at_once = 1 + in.below(64);
   if (fuzz::remesh(stage, problem)) fuzz::keep("remesh", data, size);
   return 0;
 }
