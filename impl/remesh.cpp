@@ -118,8 +118,9 @@ class Remeshing {
         climbs_(std::min(parts.count(), std::size_t(job.parallel.threads()))),
         peak_bytes_(climbs_.size(), 0) {
     std::iota(waiting_.begin(), waiting_.end(), 0);
-    std::stable_sort(waiting_.begin(), waiting_.end(),
-                     [&](std::size_t a, std::size_t b) { return parts.size(a) < parts.size(b); });
+    std::sort(waiting_.begin(), waiting_.end(), [&](std::size_t a, std::size_t b) {
+      return parts.size(a) != parts.size(b) ? parts.size(a) < parts.size(b) : a < b;
+    });
     for (std::size_t p = 0; p < parts.count(); p++) results_.emplace_back(job.memory);
   }
   /// After an exception calls may be under way.
