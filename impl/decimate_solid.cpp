@@ -123,8 +123,8 @@ class SolidDecimator {
 
   /// The first field's range counts as the diagonal.
   static Values<m> scales_of(const MeshView &original, const ValueRange<m> &range) {
-    const double width = range.high[0] - range.low[0];
-    const double scale = width > 0 ? box_of(original.points).diagonal() / width : 1;
+    const double half = 0.5 * range.high[0] - 0.5 * range.low[0];  // the whole may be more than a double holds
+    const double scale = half > 0 ? 0.5 * box_of(original.points).diagonal() / half : 1;
     Values<m> scales;
     for (std::size_t i = 0; i < m; i++) scales[i] = scale * original.scales.weighted[i];
     return scales;

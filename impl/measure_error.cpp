@@ -59,13 +59,14 @@ struct Tally {
   double squares = 0, worst = 0;
   std::int64_t inside = 0, outside = 0;
 
-  void add(const Field &field, const Vec3 &p, double original) {
+  /// The error in units, each value by itself: their difference may be more than a double holds.
+  void add(const Field &field, const Vec3 &p, double original, double unit) {
     double value;
     if (!field.value_at(p, value)) {
       outside++;
       return;
     }
-    const double error = std::abs(value - original);
+    const double error = std::abs(value / unit - original / unit);
     squares += error * error;
     worst = std::max(worst, error);
     inside++;
@@ -102,7 +103,8 @@ double random_unit(std::uint64_t key) {
 }
 
 /// A uniform sample of a tet: exponential variates, normalised.
-void add_sample(const MeshView &mesh, std::size_t tet, std::uint64_t key, const Field &field, Tally &tally) {
+void add_sample(const MeshView &mesh, std::size_t tet, std::uint64_t key, const Field &field, double unit,
+                Tally &tally) {
   double weights[4], total = 0;
   for (std::uint64_t k = 0; k < 4; k++) total += weights[k] = -std::log(random_unit(4 * key + k)) + 1e-300;
   Vec3 p(0);
@@ -112,7 +114,7 @@ void add_sample(const MeshView &mesh, std::size_t tet, std::uint64_t key, const 
     p += weights[k] / total * mesh.points[v];
     value += weights[k] / total * mesh.scalars[v * mesh.fields];
   }
-  tally.add(field, p, value);
+  tally.add(field, p, value, unit);
 }
 
 }  // namespace
@@ -120,20 +122,20 @@ void add_sample(const MeshView &mesh, std::size_t tet, std::uint64_t key, const 
 FieldError measure_error(const MeshView &original, double range, const TetMesh &result, int samples_per_tet,
                          std::uint64_t seed, Job &job) {
   const Field field(result, job);
+  const double unit = range > 0 ? std::min(range, std::numeric_limits<double>::max()) : 1;
   Array<std::uint8_t> used(original.points.size(), 0, &job.memory);
   for (const Tet &t : original.tets)
     for (std::int32_t v : t) used[std::size_t(v)] = 1;
   const Tally at_vertices = tally_blocks(original.points.size(), job, 0, [&](std::size_t v, Tally &tally) {
-    if (used[v]) tally.add(field, original.points[v], original.scalars[v * original.fields]);
+    if (used[v]) tally.add(field, original.points[v], original.scalars[v * original.fields], unit);
   });
   const auto samples = std::uint64_t(samples_per_tet);
   const Tally inside = tally_blocks(samples ? original.tets.size() : 0, job, 0.5, [&](std::size_t t, Tally &tally) {
     for (std::uint64_t s = 0; s < samples; s++)
-      add_sample(original, t, (seed << 40) + std::uint64_t(t) * samples + s, field, tally);
+      add_sample(original, t, (seed << 40) + std::uint64_t(t) * samples + s, field, unit, tally);
   });
-  const double unit = range > 0 ? range : 1;
-  return {at_vertices.rms() / unit, at_vertices.worst / unit, at_vertices.share_outside(),
-          inside.rms() / unit,      inside.worst / unit,      inside.share_outside()};
+  return {at_vertices.rms(), at_vertices.worst, at_vertices.share_outside(),
+          inside.rms(),      inside.worst,      inside.share_outside()};
 }
 
 FieldError measure_error(const Input &input, const Options &options, const TetMesh &result, int samples_per_tet,
