@@ -77,16 +77,21 @@ double sane_scale(double scale) {
   return scale > least ? std::min(scale, most) : least;
 }
 
+/// Not more than a double holds.
+double range_of(const Ranges &ranges, std::size_t k) {
+  return std::min(ranges.high[k] - ranges.low[k], std::numeric_limits<double>::max());
+}
+
 /// What errors of a field are compared with. A constant one's are of rounding: they are to count next to nothing.
 double extent_of(const Ranges &ranges, std::size_t k) {
-  const double range = ranges.high[k] - ranges.low[k];
+  const double range = range_of(ranges, k);
   return range > 0 ? range : std::max({std::abs(ranges.low[k]), std::abs(ranges.high[k]), 1.0});
 }
 
 void find_scales(const Input &input, const Ranges &ranges, Original &original) {
   original.scalar_min = ranges.low[0];
   original.scalar_max = ranges.high[0];
-  original.range = ranges.high[0] - ranges.low[0];
+  original.range = range_of(ranges, 0);
   original.view.scales = {};
   for (std::size_t k = 1; k < original.view.fields; k++)
     if (!(original.range > 0) && ranges.high[k] > ranges.low[k]) original.range = extent_of(ranges, 0);
