@@ -69,6 +69,22 @@ TEST(Wrapper, SimplifiesAndKeepsALinearField) {
   EXPECT_EQ(counted, n.points);
 }
 
+TEST(Wrapper, AFurtherFieldSteers) {
+  const Cube cube;
+  std::vector<float> second;
+  for (std::int64_t i = 0; i < cube.points(); i++) second.push_back(float(cube.xyz[3 * std::size_t(i)]));
+  tetlod::Context lod = cube.submitted();
+  lod.run();
+  const std::int64_t alone = lod.fetch_report().selected_samples;
+  lod.submit_steering("x", 30, {second.data(), cube.points()});
+  lod.run();
+  EXPECT_GT(lod.fetch_report().selected_samples, alone);
+  std::vector<double> x(std::size_t(lod.fetch_counts().points));
+  lod.fetch_field("x", {x.data(), std::int64_t(x.size())});
+  for (std::size_t i = 0; i < x.size(); i++) EXPECT_NEAR(x[i], lod.view_points()(std::int64_t(i), 0), 1e-6);
+  EXPECT_THROW(lod.submit_steering("x", -1, {second.data(), cube.points()}), tetlod::Error);
+}
+
 TEST(Wrapper, FetchesIntoStridedMemory) {
   const Cube cube;
   tetlod::Context lod = cube.submitted();

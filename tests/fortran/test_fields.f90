@@ -81,6 +81,38 @@ contains
     call lod%destroy()
   end subroutine
 
+  ! Of one kind and of the other, also a section of a larger array; heavy, it decides where the samples are.
+  subroutine test_steering()
+    type(tetlod_context) :: lod
+    type(tetlod_run_report) :: alone, both
+    real(real64), allocatable, target :: wide(:, :)
+    real(real32), allocatable, target :: single(:)
+    real(real64), allocatable :: points(:, :), small(:, :)
+    character(len=200) :: message
+    integer(int64) :: n
+    integer :: stat
+    allocate (wide(3, size(xyz, 2)), source=2 * xyz)
+    allocate (single(size(xyz, 2)), source=real(xyz(3, :), real32))
+    call begin(lod)
+    call lod%run()
+    call lod%fetch_report(alone)
+    call lod%submit_steering("double", 20d0, wide(2, :))
+    call lod%submit_steering("single", 1d0, single)
+    call lod%run()
+    call lod%fetch_report(both)
+    call expect(both%selected_samples > alone%selected_samples, "samples follow the further fields")
+    call lod%fetch_counts(n)
+    call lod%fetch_points(points)
+    allocate (small(1, n))
+    call lod%fetch_field("double", small)
+    call expect(all(abs(small(1, :) - 2 * points(2, :)) < 1d-12), "a linear field that steers is exact")
+    call lod%fetch_field("single", small)
+    call expect(all(abs(small(1, :) - points(3, :)) < 1d-6), "real32 steers")
+    call lod%submit_steering("single", -1d0, single, stat=stat, errmsg=message)
+    call expect(stat == TETLOD_ERR_ARGUMENT .and. index(message, "weight -1") > 0, "a weight: "//message)
+    call lod%destroy()
+  end subroutine
+
   elemental logical function same(a, b)
     real(real64), intent(in) :: a, b
     same = transfer(a, 0_int64) == transfer(b, 0_int64)
@@ -220,6 +252,7 @@ program test_fields
   allocate (values, source=sin(4 * xyz(1, :)) + xyz(2, :) * xyz(3, :))
   call test_point_fields()
   call test_cell_fields()
+  call test_steering()
   call test_stencils()
   call test_flags()
   call test_failures()

@@ -102,6 +102,34 @@ TEST_P(Replay, CostThatSeesTheField) {
   expect_again(log, options.sigma, MovedValues::logged, decimated(options, other));
 }
 
+/// Of two fields; the paper's cost sees neither, and gives each the values that it would have alone.
+TEST_P(Replay, TwoFields) {
+  const Array<double> first(original.scalars, &host.memory);
+  const auto second = [](const Vec3 &p) { return 9 - p.z * p.x; };
+  original.fields = 2;
+  original.scalars.clear();
+  for (std::size_t v = 0; v < first.size(); v++)
+    for (double value : {first[v], second(original.points[v])}) original.scalars.push_back(value);
+  for (double weight : {0.0, 0.3}) {
+    DecimateOptions options = GetParam().options;
+    options.field_weight = {weight, weight};
+    CollapseLog log(host.memory);
+    const Surface both = decimated(options, log);
+    ASSERT_EQ(both.scalars.size(), 2 * both.points.size());
+    expect_again(log, options.sigma, weight > 0 ? MovedValues::logged : MovedValues::along_edges, both);
+    if (weight > 0) continue;
+    const Array<double> together(original.scalars, &host.memory);
+    original.scalars = first;
+    original.fields = 1;
+    CollapseLog other(host.memory);
+    const Surface alone = decimated(options, other);
+    original.scalars = together;
+    original.fields = 2;
+    ASSERT_TRUE(alone.points == both.points);
+    for (std::size_t v = 0; v < alone.points.size(); v++) ASSERT_EQ(both.scalars[2 * v], alone.scalars[v]);
+  }
+}
+
 TEST_P(Replay, FurtherThanItWent) {
   DecimateOptions options = GetParam().options;
   options.sigma = 0.9;

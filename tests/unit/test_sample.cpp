@@ -10,6 +10,7 @@
 
 #include "meshes.hpp"
 #include "sample_interior.hpp"
+#include "sample_residual.hpp"
 
 namespace tetlod {
 namespace {
@@ -169,6 +170,34 @@ TEST_F(Sample, TheMeanDecides) {
   EXPECT_EQ(sample(all(), 10), Ids{3});
   mesh.scalars = {0, 6, 2, 4};  // mean 3: a tie
   EXPECT_EQ(sample(all(), 10), Ids{2});
+}
+
+/// With a second field where the first is constant, and with that twice, the samples are those of the second.
+TEST_F(Sample, TheFieldThatVariesMostDecides) {
+  random_mesh(1000, 9, waves, 1e-9);
+  const Ids alone = sample(all(), 0.1);
+  ASSERT_GT(alone.size(), 20u);
+  for (const bool twice : {false, true}) {
+    std::vector<double> both;
+    for (double value : mesh.scalars) both.insert(both.end(), {twice ? value : 5.0, value / 8});
+    MeshView view = mesh.view();
+    view.scalars = {both.data(), both.size()};
+    view.fields = 2;
+    view.scales.weighted[1] = 8;
+    order = all();
+    Array<std::int32_t> samples(&host.memory);
+    sample_interior(view, {order.data(), order.size()}, 0.1, host.job, samples);
+    EXPECT_EQ(Ids(samples.begin(), samples.end()), alone) << twice;
+    Array<std::int32_t> vertices(&host.memory), one(&host.memory), two(&host.memory);
+    const std::vector<std::uint8_t> interior(mesh.points.size(), 1);
+    vertices.assign(order.begin(), order.end());
+    std::sort(vertices.begin(), vertices.end());
+    Array<std::int32_t> again(vertices, &host.memory);
+    sample_residual(mesh.view(), vertices, {interior.data(), interior.size()}, 50, host.job, one);
+    sample_residual(view, again, {interior.data(), interior.size()}, 50, host.job, two);
+    EXPECT_EQ(one.size(), 50u);
+    EXPECT_TRUE(one == two) << twice;
+  }
 }
 
 /// Points that no plane separates, though their values differ.
