@@ -77,6 +77,17 @@ TEST(Scale, NumbersAreShort) {
   EXPECT_EQ(count_text(-123), "-123");
 }
 
+TEST(Scale, LongNamesAreShortened) {
+  EXPECT_EQ(shortened("density", 7), "density");
+  EXPECT_EQ(shortened("density of the gas", 11), "dens... gas");
+  for (std::size_t most = 4; most < 20; most++) {
+    const std::string name =
+        shortened("\xC3\xA4\xC3\xB6\xC3\xBC\xC3\xA4\xC3\xB6\xC3\xBC\xC3\xA4\xC3\xB6\xC3\xBC\xC3\xA4", most);
+    EXPECT_LE(name.size(), most);
+    EXPECT_EQ((name.size() - 3) % 2, 0U) << "no letter of two bytes is cut in two";
+  }
+}
+
 double lightness(const Colour &c) { return 0.2126 * c.red + 0.7152 * c.green + 0.0722 * c.blue; }
 
 // So that the maps can be read without colours.

@@ -15,11 +15,7 @@ namespace cli {
 namespace {
 
 constexpr int kIsoBins = 64;
-
-std::string label_of(vtkDataArray &values, const std::string &name) {
-  if (!values.HasInformation() || !values.GetInformation()->Has(vtkDataArray::UNITS_LABEL())) return name;
-  return name + " [" + values.GetInformation()->Get(vtkDataArray::UNITS_LABEL()) + "]";
-}
+constexpr std::size_t kLongestName = 24;  // with a unit it fits beside a colour bar
 
 std::vector<double> finite_values(vtkDataArray &values) {
   std::vector<double> finite;
@@ -36,12 +32,17 @@ std::string axis_of(const Scale &scale, double least, const std::string &label) 
 
 }  // namespace
 
+std::string label_of(vtkDataArray &values, const std::string &name) {
+  if (!values.HasInformation() || !values.GetInformation()->Has(vtkDataArray::UNITS_LABEL())) return name;
+  return name + " [" + values.GetInformation()->Get(vtkDataArray::UNITS_LABEL()) + "]";
+}
+
 Pair pair_of(vtkUnstructuredGrid *original, vtkUnstructuredGrid *simplified, const std::string &field,
              const tetlod_run_report &run) {
   Pair pair{sight_of(original, field), sight_of(simplified, field), {}, {}, {}, 0, true, {}};
   const std::vector<double> values = finite_values(*pair.original.values);
   const double least = values.empty() ? 0 : *std::min_element(values.begin(), values.end());
-  pair.label = label_of(*pair.original.values, field);
+  pair.label = label_of(*pair.original.values, shortened(field, kLongestName));
   pair.scale = scale_for(values);
   pair.axis = axis_of(pair.scale, least, pair.label);
   pair.range = pair.scale.high - least;

@@ -15,13 +15,16 @@ namespace cli {
 // What is compared.
 struct Pair {
   Sight original, simplified;
-  std::string label;  // of the field, with its unit
+  std::string label;  // of the field, with its unit; long names are shortened
   Scale scale;        // of the original's finite values
   std::string axis;   // the label, and what is to be said of the scale
   double range;       // of the original's finite values
   bool whole;         // all values of the original are finite
   std::string captions[2];
 };
+
+// "heat [K]"
+std::string label_of(vtkDataArray &values, const std::string &name);
 
 Pair pair_of(vtkUnstructuredGrid *original, vtkUnstructuredGrid *simplified, const std::string &field,
              const tetlod_run_report &run);

@@ -65,7 +65,8 @@ void write_pictures(const Arguments &arguments, vtkUnstructuredGrid *original, v
     write_whole((folder / (figure.name + "-dark.png")).string(), figure.dark);
   }
   seconds.pictures = watch.lap();
-  write_whole((folder / "report.html").string(), html_report(arguments, pair.label, filter, seconds, figures));
+  write_whole((folder / "report.html").string(),
+              html_report(arguments, label_of(*pair.original.values, field), filter, seconds, figures));
 }
 
 }  // namespace cli

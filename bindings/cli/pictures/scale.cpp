@@ -97,6 +97,15 @@ std::string count_text(long long count) {
   return text;
 }
 
+std::string shortened(const std::string &name, std::size_t most) {
+  if (name.size() <= most) return name;
+  const auto inside_letter = [&](std::size_t at) { return (static_cast<unsigned char>(name[at]) & 0xC0U) == 0x80U; };
+  std::size_t head = (most - 3) / 2, tail = name.size() - (most - 3 - head);
+  while (head > 0 && inside_letter(head)) head--;
+  while (tail < name.size() && inside_letter(tail)) tail++;
+  return name.substr(0, head) + "..." + name.substr(tail);
+}
+
 std::string number_text(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.4g", value);

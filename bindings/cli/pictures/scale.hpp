@@ -28,6 +28,8 @@ std::vector<double> with_ends(const Scale &scale, double least_gap);
 
 // Four digits: 1.234, 12,340, 3e-9.
 std::string number_text(double value);
+// A name of so many letters at most: of a longer one the beginning and the end.
+std::string shortened(const std::string &name, std::size_t most);
 // With thousands apart.
 std::string count_text(long long count);
 
