@@ -12,8 +12,8 @@ import tempfile
 import unittest
 
 try:
-    from paraview.simple import (FindSource, LoadPlugin, LoadState, ResetSession, SaveState, Tetrahedralize, Wavelet,
-                                 XMLUnstructuredGridReader)
+    from paraview.simple import (Calculator, FindSource, LoadPlugin, LoadState, ResetSession, SaveState,
+                                 Tetrahedralize, Wavelet, XMLUnstructuredGridReader)
     from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 except ImportError as missing:
     print(f"skipped: ParaView's Python modules are not there (Debian: python3-paraview): {missing}")
@@ -143,6 +143,23 @@ class Plugin(unittest.TestCase):
         by_panel.Preset = "paper"
         by_panel.MaxError = 0.05
         self.assertEqual(bytes_of(by_panel), bytes_of_tool(self.generated, "--max-error", "0.05"))
+
+    def test_same_bytes_as_the_command_line_where_several_arrays_steer(self):
+        calculator = Calculator(Input=XMLUnstructuredGridReader(FileName=[self.generated]), ResultArrayName="height",
+                                Function="coordsX^2")
+        calculator.UpdatePipeline()
+        path = os.path.join(self.folder.name, "two.vtu")
+        write(calculator.GetClientSideObject().GetOutputPort(), path)
+        options = ("--field", "RTData", "--preset", "fast", "--target-ratio", "0.2")
+        by_panel = self.simplify(path, Scalars=["POINTS", "RTData"], Preset="fast", TargetRatio=0.2)
+        alone = bytes_of(by_panel)
+        self.assertEqual(alone, bytes_of_tool(path, *options))
+        by_panel.SteeringArrays = ["height", "2.5"]
+        both = bytes_of(by_panel)
+        self.assertEqual(both, bytes_of_tool(path, *options, "--steer", "height:2.5"))
+        self.assertNotEqual(both, alone)
+        by_panel.SteeringArrays = []
+        self.assertEqual(bytes_of(by_panel), alone)
 
     def test_same_bytes_as_the_command_line_on_a_real_set(self):
         path = os.path.join(DATA, "bluntfin.vtu")
