@@ -139,6 +139,9 @@ void RemeshParts::join(Span<RemeshResult> results, RemeshResult &whole) const {
   for (std::size_t i = 0; i < number.size(); i++)
     if (number[i] >= 0) whole.origin.push_back(std::int32_t(surface_.points.size() + i));
   const std::size_t known = whole.points.size();
+  std::size_t tets = 0;
+  for (const RemeshResult &of_part : results) tets += of_part.tets.size();
+  whole.tets.reserve(tets);
   for (std::size_t p = 0; p < results.size(); p++) {
     append(p, number, results[p], whole);
     results[p] = RemeshResult(job_.memory);
