@@ -20,6 +20,8 @@ class Reuse : public testing::Test {
  protected:
   Cube cube{8};
   std::vector<std::uint8_t> flags;
+  std::vector<double> second;  // steers, too, with a weight
+  double weight = 1;
   Context context = make_context();
   std::vector<std::function<void(tetlod_context *)>> options;
 
@@ -28,6 +30,10 @@ class Reuse : public testing::Test {
     tetlod_set_rho(of, 0.1);
     for (const auto &option : options) option(of);
     submit(of, cube);
+    if (!second.empty()) {
+      const tetlod_array array = array_of(TETLOD_FLOAT64, second.size(), 1, second.data());
+      EXPECT_EQ(tetlod_submit_steering(of, "second", weight, &array), TETLOD_OK);
+    }
     if (flags.empty()) return;
     const tetlod_array array = array_of(TETLOD_UINT8, flags.size(), 1, flags.data());
     EXPECT_EQ(tetlod_submit_point_flags(of, &array), TETLOD_OK);
@@ -167,6 +173,27 @@ TEST_F(Reuse, TargetsOfTheSameValues) {
   new_values(0.2);
   const tetlod_run_report report = expect_fresh_bytes();
   EXPECT_EQ(report.reused_tets, tets());
+}
+
+/// With a field more, other values of it, another weight, a weight of nothing, and without it again.
+TEST_F(Reuse, FieldsThatSteer) {
+  const std::size_t points = cube.values.size();
+  for (const std::int64_t preset : {TETLOD_PRESET_PAPER, TETLOD_PRESET_FAST, TETLOD_PRESET_ACCURATE}) {
+    options.push_back([preset](tetlod_context *of) { tetlod_set_preset(of, std::int32_t(preset)); });
+    expect_fresh_bytes();
+    for (double phase : {0.3, 0.9}) {
+      second.clear();
+      for (std::size_t v = 0; v < points; v++) second.push_back(std::cos(4 * cube.xyz[3 * v + 2] + phase));
+      for (double w : {1.0, 3.0, 0.0, 0.5}) {
+        weight = w;
+        EXPECT_EQ(expect_fresh_bytes().reused_tets, tets()) << "preset " << preset << ", weight " << weight;
+      }
+      const std::int64_t reused = expect_fresh_bytes().reused_triangles;
+      EXPECT_EQ(reused > 0, preset != TETLOD_PRESET_ACCURATE) << "nothing has changed";
+    }
+    second.clear();
+    ASSERT_EQ(tetlod_clear(context.get()), TETLOD_OK);
+  }
 }
 
 TEST_F(Reuse, ValuesThatAreNone) {
