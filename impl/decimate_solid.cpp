@@ -224,8 +224,30 @@ class SolidDecimator {
   bool find(std::int32_t v, double limit, SolidCollapse<m> &collapse) {
     if (!mesh_.has_vertex(v) || moved_[std::size_t(v)] == round_) return false;
     if (!is_known(cheapest(v))) find_cheapest_edge(v, -infinity);
-    for (; cheapest(v).cost <= limit; find_cheapest_edge(v, cheapest(v).cost))
-      if (is_admissible(v, cheapest(v), collapse)) return true;
+    if (!(cheapest(v).cost <= limit)) return false;
+    return is_admissible(v, cheapest(v), collapse) || find_dearer(v, limit, collapse);
+  }
+
+  /// The same among the edges that cost more than the cheapest, which is not admissible.
+  bool find_dearer(std::int32_t v, double limit, SolidCollapse<m> &collapse) {
+    Few<CheapestEdge, largest_cavity> dearer;
+    const double tried = cheapest(v).cost;
+    CheapestEdge later;
+    later.round = round_of_costs_;
+    for (std::int32_t u : mesh_.neighbours.of(v)) {
+      const BestOfEdge best = cost(v, u);
+      if (best.cost > tried && best.cost <= limit) dearer.push({best.cost, best.t, u, round_of_costs_});
+      if (best.cost > limit && best.cost < later.cost) later = {best.cost, best.t, u, round_of_costs_};
+    }
+    const auto is_cheaper = [](const CheapestEdge &a, const CheapestEdge &b) {
+      return a.cost != b.cost ? a.cost < b.cost : a.other < b.other;
+    };
+    std::sort(dearer.begin(), dearer.end(), is_cheaper);
+    for (const CheapestEdge &edge : dearer) {
+      cheapest(v) = edge;
+      if (is_admissible(v, edge, collapse)) return true;
+    }
+    cheapest(v) = later;
     return false;
   }
 

@@ -22,6 +22,8 @@ class Few {
   bool empty() const { return size_ == 0; }
   T &operator[](std::size_t i) { return items_[i]; }
   const T &operator[](std::size_t i) const { return items_[i]; }
+  T *begin() { return items_; }
+  T *end() { return items_ + size_; }
   const T *begin() const { return items_; }
   const T *end() const { return items_ + size_; }
   bool has(const T &item) const { return std::find(begin(), end(), item) != end(); }

@@ -123,11 +123,11 @@ bool is_flattened(const SolidComplex &mesh, const Tet &t, std::int32_t v, const 
   const Vec3 after[4] = {t[0] == v ? place : before[0], t[1] == v ? place : before[1], t[2] == v ? place : before[2],
                          t[3] == v ? place : before[3]};
   const double volume = det(after[0], after[1], after[2], after[3]);
+  if (!(volume > 0)) return true;
   // No edge is longer than twice the longest one at a corner: of most tets that says enough.
   const double most =
       4 * std::max({length2(after[1] - after[0]), length2(after[2] - after[0]), length2(after[3] - after[0])});
-  if (volume > 0 && volume * volume > limit2 * most * most * most) return false;
-  if (!(volume > 0)) return true;
+  if (volume * volume > limit2 * most * most * most) return false;
   const double shape = shape2(after);
   return shape < limit2 && shape < shape2(before);
 }
