@@ -18,7 +18,7 @@ constexpr double snaps[] = {1e-4, 1e-6, 1e-9};
 /// So near to a corner a vertex is that corner; less near, where no other way is left.
 constexpr double at_corner = 1e-6, near_corner = 1e-3;
 /// Flatter tets than elsewhere are taken, for the bound's sake.
-constexpr double flattest = 1e-9;
+constexpr double flattest = 1e-11;
 /// Sweeps that also flip; the sweeps after them insert alone, which ends.
 constexpr int flipping_sweeps = 3;
 
@@ -88,7 +88,7 @@ class Bound {
       return give_values(corner, probe.value);
     for (double snap : snaps)
       if (insert_vertex(t, probe.point, probe.value, snap, flattest, mesh_)) {
-        mesh_.kept.back() = 1;
+        mesh_.kept.back() = held;
         return true;
       }
     const std::int32_t corner = corner_at(mesh_, t, probe.point, near_corner);
@@ -98,7 +98,7 @@ class Bound {
   /// The original's there. Once a vertex has been given its values it is not given others.
   bool give_values(std::int32_t v, const Values<m> &values) {
     if (mesh_.kept[std::size_t(v)]) return false;
-    mesh_.kept[std::size_t(v)] = 1;
+    mesh_.kept[std::size_t(v)] = held;
     mesh_.values[std::size_t(v)] = values;
     Array<std::int32_t> around(&job_.memory);
     mesh_.star(v, around);

@@ -108,9 +108,9 @@ bool insert_vertex(std::int32_t t, const Vec3 &p, const Values<m> &values, doubl
       part[k] = v;
       fresh.push_back(part);
     }
-  // The faces among kept vertices stay, so that partitions with kept interfaces go on fitting.
+  // The faces among vertices that the host keeps stay, so that partitions with kept interfaces go on fitting.
   if (on_boundary &&
-      std::all_of(simplex, simplex + size, [&](std::int32_t u) { return mesh.kept[std::size_t(u)] != 0; }))
+      std::all_of(simplex, simplex + size, [&](std::int32_t u) { return (mesh.kept[std::size_t(u)] & ~held) != 0; }))
     return false;
   const Vec3 place = size == 4 ? p : sum / total;
   if (on_boundary && mesh.may_bound && !mesh.may_bound(place)) return false;

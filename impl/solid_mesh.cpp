@@ -31,13 +31,13 @@ typename SolidMesh<m>::Gradients SolidMesh<m>::gradients(const Tet &t) const {
 /// vertices are on the boundary, the less is gained by moving it; by experience.
 template <std::size_t m>
 double SolidMesh<m>::weight_of_planes() const {
-  constexpr double least = 20, by_share = 4, most = 2e4;
+  constexpr double least = 20, by_share = 3.5, most = 2e4;
   double used = 0, boundary = 0;
   for (std::size_t v = 0; v < vertices_.size(); v++) {
     used += has_vertex(std::int32_t(v));
     boundary += on_boundary(std::int32_t(v));
   }
-  return std::min(least + by_share * std::pow(used / boundary, 6), most);
+  return std::min(least + by_share * std::pow(used / boundary, 7), most);
 }
 
 template <std::size_t m>

@@ -13,6 +13,9 @@ namespace tetlod {
 /// What TetComplex::fixed says of a vertex beside 0 and 1: on the boundary, where the solid touches itself.
 constexpr std::uint8_t touching = 2;
 
+/// What TetComplex::kept says of a vertex that keeps its values for the bound's sake alone.
+constexpr std::uint8_t held = 4;
+
 class TetComplex {
  public:
   explicit TetComplex(Memory &memory)
@@ -29,7 +32,7 @@ class TetComplex {
 
   Array<Vec3> points;
   Array<std::uint8_t> fixed;                    ///< vertices of the boundary: 1, or `touching`
-  Array<std::uint8_t> kept;                     ///< vertices that keep place and values
+  Array<std::uint8_t> kept;                     ///< vertices that keep place and values: the host's flags, or `held`
   Array<Tet> tets;                              ///< every one positive; the first corner of a free slot is -1
   Array<Tet> neighbours;                        ///< across the face opposite each corner; -1 on the boundary
   std::function<bool(const Vec3 &)> may_bound;  ///< whether a new vertex of the boundary may be there; empty: anywhere
