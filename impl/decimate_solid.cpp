@@ -44,7 +44,7 @@ class SolidDecimator {
                  const SolidOptions &options, Job &job)
       : original_(original),
         range_(range_of(original)),
-        scales_(scales_of(original, range_)),
+        scales_(scales_of(original, box_of(surface.points).diagonal(), range_)),
         job_(job),
         mesh_(original, boundary, scales_, job),
         cheapest_(original.points.size(), CheapestEdge(), &job.memory),
@@ -115,16 +115,19 @@ class SolidDecimator {
 
   using Place = Vector<3 + m>;
 
+  /// Of the values that tets have: other points' mean nothing.
   static ValueRange<m> range_of(const MeshView &original) {
+    const Span<const Values<m>> values = original.values<m>();
     ValueRange<m> range;
-    for (const Values<m> &values : original.values<m>()) range.add(values);
+    for (const Tet &t : original.tets)
+      for (std::int32_t v : t) range.add(values[std::size_t(v)]);
     return range;
   }
 
   /// The first field's range counts as the diagonal.
-  static Values<m> scales_of(const MeshView &original, const ValueRange<m> &range) {
+  static Values<m> scales_of(const MeshView &original, double diagonal, const ValueRange<m> &range) {
     const double half = 0.5 * range.high[0] - 0.5 * range.low[0];  // the whole may be more than a double holds
-    const double scale = half > 0 ? 0.5 * box_of(original.points).diagonal() / half : 1;
+    const double scale = half > 0 ? 0.5 * diagonal / half : 1;
     Values<m> scales;
     for (std::size_t i = 0; i < m; i++) scales[i] = scale * original.scales.weighted[i];
     return scales;

@@ -170,6 +170,21 @@ TEST_F(DecimateSolid, LosesNothingWhereTheFieldIsLinear) {
     EXPECT_NEAR(coarse.mesh.scalars[v], field(coarse.mesh.points[v]), 1e-9);
 }
 
+TEST_F(DecimateSolid, PointsThatNoTetUsesChangeNothing) {
+  Mesh mesh = kuhn_cube(8);
+  set_scalars(mesh, waves);
+  start_with(mesh);
+  CoarseSolid without(host.memory), with(host.memory);
+  ASSERT_TRUE(decimate(0.1, host, without));
+  mesh.points.push_back(Vec3(1e6));
+  mesh.scalars.push_back(-1e150);
+  start_with(mesh);
+  ASSERT_TRUE(decimate(0.1, host, with));
+  EXPECT_EQ(with.mesh.points, without.mesh.points);
+  EXPECT_EQ(with.mesh.scalars, without.mesh.scalars);
+  EXPECT_EQ(with.mesh.tets, without.mesh.tets);
+}
+
 TEST_F(DecimateSolid, RefusesTetsThatOverlap) {
   Mesh mesh = kuhn_cube(4);
   set_scalars(mesh, waves);
