@@ -124,9 +124,11 @@ class SolidDecimator {
     return range;
   }
 
-  /// The first field's range counts as the diagonal.
+  /// A field's range counts as the diagonal, where its weight is 1; the first may be constant.
   static Values<m> scales_of(const MeshView &original, double diagonal, const ValueRange<m> &range) {
-    const double half = 0.5 * range.high[0] - 0.5 * range.low[0];  // the whole may be more than a double holds
+    double half = 0;  // the whole may be more than a double holds
+    for (std::size_t i = 0; i < m && !(half > 0); i++)
+      half = original.scales.relative[i] * (0.5 * range.high[i] - 0.5 * range.low[i]);
     const double scale = half > 0 ? 0.5 * diagonal / half : 1;
     Values<m> scales;
     for (std::size_t i = 0; i < m; i++) scales[i] = scale * original.scales.weighted[i];
