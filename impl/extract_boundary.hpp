@@ -8,8 +8,7 @@
 namespace tetlod {
 
 struct Boundary {
-  explicit Boundary(Memory &memory)
-      : triangles(&memory), tet_of(&memory), interior(&memory), excluded(&memory) {}
+  explicit Boundary(Memory &memory) : triangles(&memory), tet_of(&memory), interior(&memory), excluded(&memory) {}
   Array<Triangle> triangles;     ///< original vertices, counter-clockwise seen from outside
   Array<std::int32_t> tet_of;    ///< of each triangle
   Array<std::int32_t> interior;  ///< vertices that tets use and the boundary does not, ascending

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "budget.hpp"
 #include "brute_force.hpp"
+#include "budget.hpp"
 #include "measure_error.hpp"
 #include "meshes.hpp"
 #include "pipeline.hpp"
