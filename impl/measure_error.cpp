@@ -41,8 +41,7 @@ class Field {
       if (least > best) {
         best = least;
         found = true;
-        value = 0;
-        for (std::size_t k = 0; k < 4; k++) value += w[k] * mesh_.scalars[std::size_t(t[k])];
+        value = value_in(t, w);
       }
       return best >= 0;
     });
@@ -50,6 +49,18 @@ class Field {
   }
 
  private:
+  /// Not beyond the values at the corners: a constant stays what it is, however large.
+  double value_in(const Tet &t, const double w[4]) const {
+    double sum = 0, low = mesh_.scalars[std::size_t(t[0])], high = low;
+    for (std::size_t k = 0; k < 4; k++) {
+      const double at_corner = mesh_.scalars[std::size_t(t[k])];
+      sum += w[k] * at_corner;
+      low = std::min(low, at_corner);
+      high = std::max(high, at_corner);
+    }
+    return std::clamp(sum, low, high);
+  }
+
   const TetMesh &mesh_;
   KdTree tree_;
 };

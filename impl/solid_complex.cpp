@@ -1,11 +1,13 @@
 #include "solid_complex.hpp"
 
-#include "geometry.hpp"
+#include "tet_frame.hpp"
 
 namespace tetlod {
 
 namespace {
 
+/// A tet with this part of the usual shape is flat.
+constexpr double flat_beside_usual = 0.01;
 /// Neighbours of a vertex, about.
 constexpr std::size_t usual_neighbours = 15;
 
@@ -39,6 +41,21 @@ SolidComplex::SolidComplex(const MeshView &original, const Boundary &boundary, J
   for (const Triangle &t : triangles)
     for (std::int32_t v : t) ranks[std::size_t(v)] = Rank::boundary;
   find_neighbours(job);
+  const double flat = flat_beside_usual * flat_beside_usual * usual_shape2(job.memory);
+  least_shape2 = std::min(least_shape * least_shape, flat);
+}
+
+/// The median of some thousand tets'. Of a squeezed mesh all are flat.
+double SolidComplex::usual_shape2(Memory &memory) const {
+  constexpr std::size_t enough = 4096;
+  Array<double> shapes(&memory);
+  for (std::size_t i = 0; i < tets.size(); i += tets.size() / enough + 1) {
+    const Tet &t = tets[i];
+    shapes.push_back(shape2(point(t[0]), point(t[1]), point(t[2]), point(t[3])));
+  }
+  const auto middle = shapes.begin() + std::ptrdiff_t(shapes.size() / 2);
+  std::nth_element(shapes.begin(), middle, shapes.end());
+  return *middle;
 }
 
 Vec3 SolidComplex::normal(std::int32_t triangle) const {

@@ -34,6 +34,7 @@ class SolidComplex {
   StarLists tets_of, triangles_of;  ///< some of them may be gone
   StarLists neighbours;             ///< of each vertex
   std::int64_t count;               ///< of the tets that are there
+  double least_shape2;              ///< square of the shape of a tet, below which it is flat
 
   const Vec3 &point(std::int32_t v) const { return points[std::size_t(v)]; }
   Rank rank(std::int32_t v) const { return ranks[std::size_t(v)]; }
@@ -54,6 +55,7 @@ class SolidComplex {
 
  private:
   void find_neighbours(Job &job);
+  double usual_shape2(Memory &memory) const;
   template <class Simplices>
   void merge_stars(const SolidEdge &edge, Simplices &simplices, StarLists &stars);
   void merge_neighbours(const SolidEdge &edge);

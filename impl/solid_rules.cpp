@@ -105,20 +105,9 @@ bool share_chord(const SolidComplex &mesh, const Ring &ring, const SolidEdge &ed
   return false;
 }
 
-double longest2(const Vec3 *p) {
-  return std::max({length2(p[1] - p[0]), length2(p[2] - p[0]), length2(p[3] - p[0]), length2(p[2] - p[1]),
-                   length2(p[3] - p[1]), length2(p[3] - p[2])});
-}
-
-/// Square of a tet's volume over the cube of its longest edge.
-double shape2(const Vec3 *p) {
-  const double volume = det(p[0], p[1], p[2], p[3]), longest = longest2(p);
-  return volume * volume / (longest * longest * longest);
-}
-
 /// Whether tet t, with its corner v at another place, would turn over, or be flat and flatter than it is.
 bool is_flattened(const SolidComplex &mesh, const Tet &t, std::int32_t v, const Vec3 &place) {
-  constexpr double limit2 = least_shape * least_shape;
+  const double limit2 = mesh.least_shape2;
   const Vec3 before[4] = {mesh.point(t[0]), mesh.point(t[1]), mesh.point(t[2]), mesh.point(t[3])};
   const Vec3 after[4] = {t[0] == v ? place : before[0], t[1] == v ? place : before[1], t[2] == v ? place : before[2],
                          t[3] == v ? place : before[3]};
@@ -128,8 +117,8 @@ bool is_flattened(const SolidComplex &mesh, const Tet &t, std::int32_t v, const 
   const double most =
       4 * std::max({length2(after[1] - after[0]), length2(after[2] - after[0]), length2(after[3] - after[0])});
   if (volume * volume > limit2 * most * most * most) return false;
-  const double shape = shape2(after);
-  return shape < limit2 && shape < shape2(before);
+  const double shape = shape2(after[0], after[1], after[2], after[3]);
+  return shape < limit2 && shape < shape2(before[0], before[1], before[2], before[3]);
 }
 
 template <class Tets>

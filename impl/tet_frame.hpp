@@ -37,13 +37,23 @@ struct TetFrame {
 /// Smallest volume of a tet, over the cube of its longest edge.
 constexpr double least_shape = 1e-5;
 
+/// Square of the longest edge.
+inline double longest2(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &d) {
+  return std::max({length2(b - a), length2(c - a), length2(d - a), length2(c - b), length2(d - b), length2(d - c)});
+}
+
 /// Whether (a, b, c, d) is positive, and no sliver worse than `limit`.
 inline bool is_sound(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &d, double limit) {
   const double volume = det(a, b, c, d);
   if (!(volume > 0)) return false;
-  const double longest =
-      std::max({length2(b - a), length2(c - a), length2(d - a), length2(c - b), length2(d - b), length2(d - c)});
+  const double longest = longest2(a, b, c, d);
   return volume * volume > limit * limit * longest * longest * longest;
+}
+
+/// Square of the volume over the cube of the longest edge.
+inline double shape2(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &d) {
+  const double volume = det(a, b, c, d), longest = longest2(a, b, c, d);
+  return volume * volume / (longest * longest * longest);
 }
 
 /// The frame in which p lies, or, outside of all, the one that it is least outside of; `first` before others. Its

@@ -83,6 +83,20 @@ TEST_F(DecimateSolid, IsSoundAndMeetsItsSize) {
   }
 }
 
+/// All of its tets would be flat elsewhere.
+TEST_F(DecimateSolid, ASqueezedMeshIsAMesh) {
+  Mesh mesh = kuhn_cube(10);
+  set_scalars(mesh, waves);
+  for (double squeeze : {1e-3, 1e-6, 1e-9}) {
+    Mesh squeezed = mesh;
+    for (Vec3 &p : squeezed.points) p.z *= squeeze;
+    start_with(squeezed);
+    CoarseSolid coarse(host.memory);
+    ASSERT_TRUE(decimate(0.3, host, coarse)) << squeeze;
+    expect_sound(coarse);
+  }
+}
+
 TEST_F(DecimateSolid, SolidsThatTouchKeepWhatTouches) {
   for (unsigned seed = 0; seed < 8; seed++) {
     Mesh mesh = random_solid(6, 0.4 + 0.05 * seed, seed);
