@@ -24,7 +24,7 @@ constexpr double shape_share = 1e-6;
 constexpr double volume_to_lose = 0.01;
 /// A best place further off than this part of the edge is none.
 constexpr double longest_step = 0.5;
-constexpr std::size_t largest_batch = 256;
+constexpr std::size_t largest_batch = 32;
 
 template <std::size_t m>
 struct SolidCollapse {
