@@ -36,8 +36,9 @@ struct ValueRange {
       high[i] = std::max(high[i], other.high[i]);
     }
   }
+  /// The least also for what is not a number: sums of the largest doubles may not be one.
   Values<m> clamp(Values<m> values) const {
-    for (std::size_t i = 0; i < m; i++) values[i] = std::clamp(values[i], low[i], high[i]);
+    for (std::size_t i = 0; i < m; i++) values[i] = std::min(high[i], std::max(low[i], values[i]));
     return values;
   }
 };
