@@ -103,7 +103,8 @@ void add_inner(const MeshView &original, double most, Job &job, Array<Probe<m>> 
     if (i % 16384 == 0) job.poll(0);
     sum += change_of<m>(original, original.tets[i]);
   }
-  const double count = double(original.tets.size()), mean = sum / count;
+  const double count = double(original.tets.size());
+  const double mean = std::isfinite(sum) ? sum / count : 0;  // of the largest doubles it may not be a number
   const double scale = inner_scale(count, most);
   EvenShares shares;
   for (std::size_t i = 0; i < original.tets.size(); i++) {
