@@ -380,8 +380,8 @@ void Session::transfer(Bytes &in) {
   DEMAND(status == wanted || explains_limit(status), "moving a field: %d, not %d: %s", status, wanted,
          message().c_str());
   DEMAND(simplified.rest_untouched(status == TETLOD_OK ? points : 0), "only the tuples of the result are written");
+  if (status == TETLOD_OK) stencil_known_ = true;
   if (status != TETLOD_OK || conditions_.memory_limit) return;
-  stencil_known_ = true;
   if (to.type != TETLOD_FLOAT64) return;
   const Stencil means = stencil();
   for (std::size_t i = 0; i < means.ids.size(); i++)

@@ -66,7 +66,7 @@ class SolidDecimator {
     const double surplus = double(mesh_.count - target);
     find_cheapest_edges(left_);
     Array<std::int32_t> items(&job_.memory);
-    for (double limit; mesh_.count > target && (limit = limit_of_round(target)) < infinity; round_++) {
+    for (double limit; mesh_.count > target && (limit = limit_of_round(target)) < infinity;) {
       job_.poll(1 - double(mesh_.count - target) / surplus);
       items.clear();
       for (std::int32_t v : left_)
@@ -74,7 +74,7 @@ class SolidDecimator {
       collapse_some(spread(items), limit, target);
       drop_gone(left_);
       drop_gone(changed_);
-      round_of_costs_ = round_ + 1;
+      round_++;
       find_cheapest_edges(changed_);
     }
   }
@@ -146,11 +146,15 @@ class SolidDecimator {
 
   // ---- Costs
 
+  struct Ends {
+    std::int32_t stays, gone;
+  };
+  Ends ends_of(std::int32_t v, std::int32_t u) const { return mesh_.rank(v) < mesh_.rank(u) ? Ends{u, v} : Ends{v, u}; }
   bool keeps_place(std::int32_t stays, std::int32_t gone) const { return mesh_.rank(stays) != mesh_.rank(gone); }
   bool may_go(std::int32_t v) const { return mesh_.rank(v) == Rank::inner || mesh_.rank(v) == Rank::boundary; }
 
-  BestOfEdge cost(std::int32_t stays, std::int32_t gone) const {
-    if (mesh_.rank(stays) < mesh_.rank(gone)) std::swap(stays, gone);
+  BestOfEdge cost(std::int32_t v, std::int32_t u) const {
+    const auto [stays, gone] = ends_of(v, u);
     if (!may_go(gone) || mesh_.rank(stays) == Rank::touching) return {0, infinity};
     const auto &a = mesh_.vertex(stays), &b = mesh_.vertex(gone);
     const Place d = minus(b.place, a.place);
@@ -162,10 +166,10 @@ class SolidDecimator {
 
   void find_cheapest_edge(std::int32_t v, double more_than) {
     CheapestEdge found;
-    found.round = round_of_costs_;
+    found.round = round_;
     for (std::int32_t u : mesh_.neighbours.of(v)) {
       const BestOfEdge best = cost(v, u);
-      if (best.cost > more_than && best.cost < found.cost) found = {best.cost, best.t, u, round_of_costs_};
+      if (best.cost > more_than && best.cost < found.cost) found = {best.cost, best.t, u, round_};
     }
     cheapest(v) = found;
   }
@@ -212,7 +216,7 @@ class SolidDecimator {
     changed_.clear();
     sweep<SolidCollapse<m>>(
         items, batches_of(items.size(), largest_batch, job_.memory), job_, mesh_,
-        [&](std::int32_t v, SolidCollapse<m> &collapse) { return find(v, limit, collapse); },
+        [&](std::int32_t v, SolidCollapse<m> &collapse) { return mesh_.count > target && find(v, limit, collapse); },
         [&](const SolidCollapse<m> &collapse) {
           if (mesh_.count > target) make(collapse);
         });
@@ -238,11 +242,11 @@ class SolidDecimator {
     Few<CheapestEdge, largest_cavity> dearer;
     const double tried = cheapest(v).cost;
     CheapestEdge later;
-    later.round = round_of_costs_;
+    later.round = round_;
     for (std::int32_t u : mesh_.neighbours.of(v)) {
       const BestOfEdge best = cost(v, u);
-      if (best.cost > tried && best.cost <= limit) dearer.push({best.cost, best.t, u, round_of_costs_});
-      if (best.cost > limit && best.cost < later.cost) later = {best.cost, best.t, u, round_of_costs_};
+      if (best.cost > tried && best.cost <= limit) dearer.push({best.cost, best.t, u, round_});
+      if (best.cost > limit && best.cost < later.cost) later = {best.cost, best.t, u, round_};
     }
     const auto is_cheaper = [](const CheapestEdge &a, const CheapestEdge &b) {
       return a.cost != b.cost ? a.cost < b.cost : a.other < b.other;
@@ -257,8 +261,7 @@ class SolidDecimator {
   }
 
   bool is_admissible(std::int32_t v, const CheapestEdge &cheapest, SolidCollapse<m> &collapse) {
-    std::int32_t stays = v, gone = cheapest.other;
-    if (mesh_.rank(stays) < mesh_.rank(gone)) std::swap(stays, gone);
+    const auto [stays, gone] = ends_of(v, cheapest.other);
     SolidEdge &edge = collapse.old;
     collapse.found_at = v;
     if (!look_around(mesh_, stays, gone, edge)) return false;
@@ -324,7 +327,7 @@ class SolidDecimator {
   SolidMesh<m> mesh_;
   std::optional<DeviationLimit> deviation_;
   double volume_of_collapse_ = 0;
-  int round_ = 0, round_of_costs_ = 0;
+  int round_ = 0;
   Array<CheapestEdge> cheapest_;
   Array<int> moved_;  // the round in which each vertex moved last
   Array<std::int32_t> left_, changed_;

@@ -1,5 +1,7 @@
 // A coarse mesh by collapsing edges, where the outcome stands every test; else the caller has to remesh.
 #pragma once
+#include <string>
+
 #include "decimate_solid.hpp"
 #include "surface_topology.hpp"
 
@@ -15,9 +17,10 @@ struct CoarseSolid {
 };
 
 /// decimate_solid. `surface` is the original's boundary, `topology` that of it; options.touching is found from them.
-/// False where the size is missed by more than 1 %, a tet is not positive, tets overlap, or the boundary crosses
-/// itself.
-bool decimate_solid_and_check(const MeshView &original, const Boundary &boundary, const Surface &surface,
-                              const SurfaceTopology &topology, SolidOptions options, Job &job, CoarseSolid &coarse);
+/// Returns what is wrong with the outcome, or an empty text: the size is missed by more than 1 %, a tet is not
+/// positive, tets overlap, or the boundary crosses itself.
+std::string decimate_solid_and_check(const MeshView &original, const Boundary &boundary, const Surface &surface,
+                                     const SurfaceTopology &topology, SolidOptions options, Job &job,
+                                     CoarseSolid &coarse);
 
 }  // namespace tetlod

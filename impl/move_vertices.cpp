@@ -93,7 +93,7 @@ class MovedStar {
 template <std::size_t m>
 class MoveFinder {
  public:
-  MoveFinder(const TetsOfVertices &tets, double least, const AdaptiveMesh<m> &mesh)
+  MoveFinder(const StarLists &tets, double least, const AdaptiveMesh<m> &mesh)
       : tets_(tets), least_(least), mesh_(mesh) {}
 
   bool find(std::int32_t v, Move<m> &move) const {
@@ -182,7 +182,7 @@ class MoveFinder {
     return j;
   }
 
-  const TetsOfVertices &tets_;
+  const StarLists &tets_;
   double least_;
   const AdaptiveMesh<m> &mesh_;
 };
@@ -207,7 +207,8 @@ std::int64_t move_vertices(std::size_t first, Job &job, AdaptiveMesh<m> &mesh) {
   Array<std::int32_t> items(&job.memory);
   for (std::size_t v = first; v < mesh.points.size(); v++)
     if (!mesh.fixed[v] && !mesh.kept[v] && mesh.tet_of[v] >= 0) items.push_back(std::int32_t(v));
-  const TetsOfVertices tets(mesh, job);  // which stay: vertices move, nothing else
+  const StarLists tets(Span<const Tet>(mesh.tets), mesh.points.size(), 0,
+                       job);  // which stay: vertices move, nothing else
   const Array<std::size_t> batches = batches_apart(mesh, tets, job, items);
   const MoveFinder<m> finder(tets, quiet * 4 * mesh.total_error() / double(mesh.points.size()), mesh);
   return sweep<Move<m>>(

@@ -118,14 +118,12 @@ class Pipeline {
     describe_boundary(prepared_.topology(job_), report_);
     const StageTimer timer(Stage::decimate, job_, report_);
     const double diagonal = original_.box.diagonal();
-    SolidOptions options;
-    options.tets = budget_.tets;
-    options.max_deviation = options_.max_deviation * diagonal;
-    options.kept = original_.flags;
+    const SolidOptions options{budget_.tets, options_.max_deviation * diagonal, original_.flags, {}};
     CoarseSolid coarse(job_.memory);
-    if (!decimate_solid_and_check(original_.view, boundary_, prepared_.surface(job_), prepared_.topology(job_), options,
-                                  job_, coarse)) {
-      if (job_.log) job_.log(1, "no sound mesh of that size by collapsing edges: the boundary's is remeshed");
+    const std::string wrong = decimate_solid_and_check(original_.view, boundary_, prepared_.surface(job_),
+                                                       prepared_.topology(job_), options, job_, coarse);
+    if (!wrong.empty()) {
+      if (job_.log) job_.log(1, ("edges collapsed in vain, so that it is remeshed: " + wrong).c_str());
       return false;
     }
     mesh_ = std::move(coarse.mesh);

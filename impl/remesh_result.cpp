@@ -1,16 +1,13 @@
 #include "remesh_result.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <tuple>
 #include <utility>
 
-#include "geometry.hpp"
 #include "key_file.hpp"
-#include "predicates.hpp"
-#include "remesh_checks.hpp"
 #include "status.hpp"
+#include "tet_checks.hpp"
 
 namespace tetlod {
 
@@ -24,24 +21,9 @@ FaceKey face_of(const Tet &tet, int opposite) {
   return {corner(0), corner(1), corner(2)};
 }
 
-double tet_det(Span<const Vec3> points, const Tet &tet) {
-  return det(points[std::size_t(tet[0])], points[std::size_t(tet[1])], points[std::size_t(tet[2])],
-             points[std::size_t(tet[3])]);
-}
-
 bool points_unchanged(const RemeshInput &input, const TetgenReply &reply) {
   return reply.points.size() >= input.points.size() &&
          std::equal(input.points.begin(), input.points.end(), reply.points.begin());
-}
-
-/// Six times the volume of all tets; summed by blocks, so the same for any number of threads.
-double six_volumes(Span<const Vec3> points, Span<const Tet> tets, double fraction, Job &job) {
-  Array<double> sums((tets.size() + block - 1) / block, 0, &job.memory);
-  job.parallel.for_blocks(tets.size(), block, [&](std::size_t begin, std::size_t end) {
-    job.poll(fraction);
-    for (std::size_t i = begin; i < end; i++) sums[begin / block] += tet_det(points, tets[i]);
-  });
-  return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
 
 /// TetGen winds all tets one way, which may be the other than ours.
@@ -243,48 +225,6 @@ void count_points(const Surface &surface, Span<const Vec3> samples, RemeshResult
   const auto used = std::int64_t(result.points.size() - surface.points.size()) - steiner;
   result.report.steiner_points = steiner;
   result.report.dropped_samples = std::int64_t(samples.size()) - used;
-}
-
-/// Positive in doubles, whichever of the three ways somebody multiplies the determinant out.
-bool looks_positive(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &d) {
-  const Vec3 u = b - a, v = c - a, w = d - a;
-  return glm::dot(glm::cross(u, v), w) > 0 && glm::dot(glm::cross(v, w), u) > 0 && glm::dot(glm::cross(w, u), v) > 0;
-}
-
-/// TetGen decides by exact signs, so that a tet in a thin plate may be flatter than doubles resolve. The order of its
-/// corners then decides how the determinant rounds: finds one that keeps the winding and looks positive.
-bool make_positive(Span<const Vec3> points, Tet &tet) {
-  constexpr std::size_t even[12][4] = {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}, {1, 0, 3, 2},
-                                       {1, 3, 2, 0}, {1, 2, 0, 3}, {2, 0, 1, 3}, {2, 1, 3, 0},
-                                       {2, 3, 0, 1}, {3, 0, 2, 1}, {3, 2, 1, 0}, {3, 1, 0, 2}};
-  const Tet old = tet;
-  const auto at = [&](std::int32_t corner) { return points[std::size_t(corner)]; };
-  for (const auto &order : even) {
-    for (std::size_t k = 0; k < 4; k++) tet[k] = old[order[k]];
-    if (looks_positive(at(tet[0]), at(tet[1]), at(tet[2]), at(tet[3])))
-      return tet == old || orientation(at(tet[0]), at(tet[1]), at(tet[2]), at(tet[3])) > 0;
-  }
-  return false;
-}
-
-/// On the points as they are handed out: those of TetGen's frame may have been rounded on the way back.
-std::string make_all_positive(Span<const Vec3> points, Span<Tet> tets, double fraction, Job &job) {
-  Array<std::size_t> bad((tets.size() + block - 1) / block, 0, &job.memory);
-  job.parallel.for_blocks(tets.size(), block, [&](std::size_t begin, std::size_t end) {
-    job.poll(fraction);
-    for (std::size_t i = begin; i < end; i++) bad[begin / block] += !make_positive(points, tets[i]);
-  });
-  const std::size_t count = std::accumulate(bad.begin(), bad.end(), std::size_t(0));
-  return count ? text("%zu of %zu tets have no volume", count, tets.size()) : std::string();
-}
-
-std::string check_volume(Span<const Vec3> points, Span<const Tet> tets, Span<const Triangle> boundary, double fraction,
-                         Job &job) {
-  constexpr double tolerance = 1e-9;
-  const double volume = six_volumes(points, tets, fraction, job) / 6;
-  const Volume expected = enclosed_volume(points, boundary);
-  if (std::abs(volume - expected.value) <= tolerance * expected.value + expected.uncertainty) return {};
-  return "the volume is " + number(volume / expected.value) + " of the boundary's";
 }
 
 std::string check_geometry(const Surface &surface, RemeshResult &result, const Frame &frame, double fraction,

@@ -11,6 +11,9 @@ constexpr double flat_beside_usual = 0.01;
 /// Neighbours of a vertex, about.
 constexpr std::size_t usual_neighbours = 15;
 
+/// Lists that merge leave room behind.
+std::size_t room_to_merge(std::size_t entries) { return entries * 5 / 4; }
+
 double volume6(const SolidComplex &mesh, const Tet &t) {
   return det(mesh.point(t[0]), mesh.point(t[1]), mesh.point(t[2]), mesh.point(t[3]));
 }
@@ -30,8 +33,8 @@ SolidComplex::SolidComplex(const MeshView &original, const Boundary &boundary, J
       ranks(original.points.size(), Rank::inner, &job.memory),
       tets(without_excluded(original, boundary, job.memory)),
       triangles(boundary.triangles.begin(), boundary.triangles.end(), &job.memory),
-      tets_of(Span<const Tet>(tets), original.points.size(), job),
-      triangles_of(Span<const Triangle>(triangles), original.points.size(), job),
+      tets_of(Span<const Tet>(tets), original.points.size(), room_to_merge(4 * tets.size()), job),
+      triangles_of(Span<const Triangle>(triangles), original.points.size(), room_to_merge(3 * triangles.size()), job),
       neighbours(original.points.size(), usual_neighbours * original.points.size(), job),
       count(std::int64_t(tets.size())),
       touched_(tets.size(), 0, &job.memory),
@@ -65,8 +68,7 @@ Vec3 SolidComplex::normal(std::int32_t triangle) const {
 
 double SolidComplex::volume() const {
   double sum = 0;
-  for (const Tet &t : tets)
-    if (t[0] >= 0) sum += volume6(*this, t);
+  for (const Tet &t : tets) sum += volume6(*this, t);
   return sum / 6;
 }
 

@@ -44,7 +44,7 @@ class SolidComplex {
   bool has_triangle(std::int32_t t) const { return triangles[std::size_t(t)][0] >= 0; }
   /// Twice the area vector.
   Vec3 normal(std::int32_t triangle) const;
-  double volume() const;
+  double volume() const;  ///< before any collapse
 
   /// From here on touched() says of edges whether something has become of a tet around them.
   void begin_batch() { batch_++; }

@@ -15,13 +15,15 @@ class StarLists {
     items_.reserve(room);
   }
 
-  /// The simplices of each vertex.
+  /// The simplices of each vertex, but those that are gone, whose first corner is -1. room: as above, for more than
+  /// what there is.
   template <std::size_t corners>
-  StarLists(Span<const std::array<std::int32_t, corners>> simplices, std::size_t vertices, Job &job)
-      : StarLists(vertices, simplices.size() * corners * 5 / 4, job) {
+  StarLists(Span<const std::array<std::int32_t, corners>> simplices, std::size_t vertices, std::size_t room, Job &job)
+      : StarLists(vertices, room, job) {
     job.poll(0);
     for (const auto &s : simplices)
-      for (std::int32_t v : s) count_[std::size_t(v)]++;
+      if (s[0] >= 0)
+        for (std::int32_t v : s) count_[std::size_t(v)]++;
     std::size_t next = 0;
     for (std::size_t v = 0; v < vertices; v++) {
       first_[v] = next;
@@ -31,6 +33,7 @@ class StarLists {
     items_.resize(next);
     for (std::size_t i = 0; i < simplices.size(); i++) {
       if (i % 65536 == 0) job.poll(0);
+      if (simplices[i][0] < 0) continue;
       for (std::int32_t v : simplices[i]) items_[first_[std::size_t(v)] + count_[std::size_t(v)]++] = std::int32_t(i);
     }
   }

@@ -6,25 +6,7 @@ namespace {
 
 constexpr std::size_t largest_batch = 256;
 
-template <class Visit>
-void for_each_use(const TetComplex &mesh, Job &job, const Visit &visit) {
-  for (std::size_t t = 0; t < mesh.tets.size(); t++) {
-    if (t % 65536 == 0) job.poll(0);
-    if (mesh.alive(std::int32_t(t)))
-      for (std::int32_t v : mesh.tets[t]) visit(std::int32_t(t), v);
-  }
-}
-
 }  // namespace
-
-TetsOfVertices::TetsOfVertices(const TetComplex &mesh, Job &job)
-    : first_(mesh.points.size() + 1, 0, &mesh.memory()), tets_(&mesh.memory()) {
-  for_each_use(mesh, job, [&](std::int32_t, std::int32_t v) { first_[std::size_t(v) + 1]++; });
-  for (std::size_t v = 0; v + 1 < first_.size(); v++) first_[v + 1] += first_[v];
-  tets_.resize(first_.back());
-  Array<std::uint32_t> place(first_.begin(), first_.end(), &mesh.memory());
-  for_each_use(mesh, job, [&](std::int32_t t, std::int32_t v) { tets_[place[std::size_t(v)]++] = t; });
-}
 
 Array<std::size_t> batches_of(std::size_t count, std::size_t batch, Memory &memory) {
   Array<std::size_t> ends(&memory);
@@ -33,7 +15,7 @@ Array<std::size_t> batches_of(std::size_t count, std::size_t batch, Memory &memo
   return ends;
 }
 
-Array<std::size_t> batches_apart(const TetComplex &mesh, const TetsOfVertices &tets, Job &job,
+Array<std::size_t> batches_apart(const TetComplex &mesh, const StarLists &tets, Job &job,
                                  Array<std::int32_t> &vertices) {
   const auto before = [&](std::int32_t a, std::int32_t b) {
     const std::int32_t s = tets.of(a)[0], t = tets.of(b)[0];

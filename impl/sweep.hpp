@@ -2,6 +2,7 @@
 // for any number of threads.
 #pragma once
 #include "job.hpp"
+#include "star_lists.hpp"
 #include "tet_complex.hpp"
 
 namespace tetlod {
@@ -43,22 +44,8 @@ std::int64_t sweep(Span<const std::int32_t> items, Span<const std::size_t> ends,
 /// Batches of so many items.
 Array<std::size_t> batches_of(std::size_t count, std::size_t batch, Memory &memory);
 
-/// The tets of every vertex, as they are when it is made.
-class TetsOfVertices {
- public:
-  TetsOfVertices(const TetComplex &mesh, Job &job);
-  Span<const std::int32_t> of(std::int32_t v) const {
-    const std::uint32_t begin = first_[std::size_t(v)];
-    return {tets_.data() + begin, first_[std::size_t(v) + 1] - begin};
-  }
-
- private:
-  Array<std::uint32_t> first_;  // of each vertex, and the end
-  Array<std::int32_t> tets_;
-};
-
-/// Orders inner vertices into batches in which no two share a tet, each along the tets.
-Array<std::size_t> batches_apart(const TetComplex &mesh, const TetsOfVertices &tets, Job &job,
+/// `tets` of every vertex. Orders inner vertices into batches in which no two share a tet, each along the tets.
+Array<std::size_t> batches_apart(const TetComplex &mesh, const StarLists &tets, Job &job,
                                  Array<std::int32_t> &vertices);
 
 }  // namespace tetlod

@@ -131,6 +131,28 @@ class CountingAllocator {
   void fail_after(long count) { left_ = count; }
   bool failed() const { return failed_; }
   void forget_failure() { failed_ = false, left_ = -1; }
+  /// Lets the first allocation of call() fail, then the second, and so on, from `dense` on in growing steps, until it
+  /// passes undisturbed; returns how many failed. A failure is TETLOD_ERR_MEMORY and leaves nothing behind;
+  /// after(failed) looks at the rest.
+  template <class Call, class After>
+  long fail_each(tetlod_context *context, const Call &call, const After &after, long dense = 100000) {
+    const std::size_t before = in_use_;
+    long failures = 0;
+    for (long n = 0; n < 200000 && !testing::Test::HasFailure(); n += n < dense ? 1 : 1 + n / 20, failures++) {
+      fail_after(n);
+      const tetlod_status status = call();
+      const bool failed = failed_;
+      forget_failure();
+      EXPECT_EQ(status, failed ? TETLOD_ERR_MEMORY : TETLOD_OK) << "allocation " << n << ": " << message_of(context);
+      if (failed) {
+        EXPECT_EQ(in_use_, before) << "allocation " << n;
+      }
+      after(failed);
+      if (!failed) return failures;
+    }
+    ADD_FAILURE() << "after " << failures << " failures of an allocation";
+    return failures;
+  }
   std::size_t in_use() const { return in_use_; }
   long mismatches() const { return mismatches_; }
 

@@ -33,21 +33,10 @@ TEST(Faults, EveryHookedAllocation) {
   CountingAllocator allocator;
   {
     Rerun rerun(allocator.config());
-    const std::size_t before = allocator.in_use();
-    tetlod_status status = TETLOD_ERR_MEMORY;
-    long n = 0;
-    for (; status != TETLOD_OK && n < 100000; n++) {
-      allocator.fail_after(n);
-      status = tetlod_run(rerun.context.get());
-      const bool failed = allocator.failed();
-      allocator.forget_failure();
-      if (!failed) break;
-      ASSERT_EQ(status, TETLOD_ERR_MEMORY) << "allocation " << n << ": " << message_of(rerun.context.get());
-      ASSERT_EQ(allocator.in_use(), before) << "allocation " << n;
-      ASSERT_EQ(bytes_of(rerun.context.get()), rerun.kept) << "allocation " << n;
-    }
-    EXPECT_EQ(status, TETLOD_OK) << message_of(rerun.context.get());
-    EXPECT_GT(n, 10);
+    const long failures = allocator.fail_each(
+        rerun.context.get(), [&] { return tetlod_run(rerun.context.get()); },
+        [&](bool failed) { EXPECT_EQ(bytes_of(rerun.context.get()) == rerun.kept, failed); });
+    EXPECT_GT(failures, 10);
     EXPECT_EQ(bytes_of(rerun.context.get()), undisturbed(rerun.second));
   }
   EXPECT_EQ(allocator.in_use(), 0u);
@@ -62,16 +51,12 @@ TEST(Faults, EveryHookedAllocationOfMeasureError) {
   tetlod_error_report report{};
   report.struct_size = sizeof report;
   report.samples_per_tet = -7;
-  bool failed = true;
-  for (long n = 0; failed && n < 100000; n++) {
-    allocator.fail_after(n);
-    const tetlod_status status = tetlod_measure_error(rerun.context.get(), 2, &report);
-    failed = allocator.failed();
-    allocator.forget_failure();
-    ASSERT_EQ(status, failed ? TETLOD_ERR_MEMORY : TETLOD_OK) << n << ": " << message_of(rerun.context.get());
-    ASSERT_EQ(report.samples_per_tet, failed ? -7 : 2);
-    ASSERT_EQ(allocator.in_use(), before);
-  }
+  allocator.fail_each(
+      rerun.context.get(), [&] { return tetlod_measure_error(rerun.context.get(), 2, &report); },
+      [&](bool failed) {
+        EXPECT_EQ(report.samples_per_tet, failed ? -7 : 2);
+        EXPECT_EQ(allocator.in_use(), before);
+      });
 }
 
 /// Fails the n-th operator new of this thread, for every n, until the call gets through without.

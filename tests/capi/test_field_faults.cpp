@@ -17,42 +17,21 @@ TEST_F(Fields, EveryHookedAllocation) {
   const auto kept = fetch("bent", 2, points_out());
   ASSERT_EQ(tetlod_clear(context.get()), TETLOD_OK);  // of the mesh nothing is kept then
   submit_all();
-  const std::size_t before = allocator.in_use();
-  bool failed = true;
-  for (long n = 0; failed && n < 100000; n++) {
-    allocator.fail_after(n);
-    const tetlod_status status = tetlod_run(context.get());
-    failed = allocator.failed();
-    allocator.forget_failure();
-    ASSERT_EQ(status, failed ? TETLOD_ERR_MEMORY : TETLOD_OK) << n << ": " << message_of(context.get());
-    if (failed) {
-      ASSERT_EQ(allocator.in_use(), before) << n;
-    }
-    ASSERT_EQ(fetch("bent", 2, points_out()), kept) << n;
-  }
+  allocator.fail_each(
+      context.get(), [&] { return tetlod_run(context.get()); },
+      [&](bool) { EXPECT_EQ(fetch("bent", 2, points_out()), kept); });
 }
 
 TEST_F(Fields, EveryHookedAllocationOfTransfer) {
   const auto field = field_of(cube, 1, bent);
   run();
-  const std::size_t before = allocator.in_use();
   std::vector<double> room(points_out(), -99);
   const tetlod_array from = array_of(TETLOD_FLOAT64, points(), 1, field.data());
   tetlod_array to = array_of(TETLOD_FLOAT64, points_out(), 1, room.data());
-  bool failed = true;
-  long n = 0;
-  for (; failed && n < 100000; n++) {
-    allocator.fail_after(n);
-    const tetlod_status status = tetlod_transfer(context.get(), &from, &to);
-    failed = allocator.failed();
-    allocator.forget_failure();
-    ASSERT_EQ(status, failed ? TETLOD_ERR_MEMORY : TETLOD_OK) << n << ": " << message_of(context.get());
-    ASSERT_EQ(room == std::vector<double>(room.size(), -99), failed) << n;
-    if (failed) {
-      ASSERT_EQ(allocator.in_use(), before) << n;
-    }
-  }
-  EXPECT_GT(n, 5);
+  const long failures = allocator.fail_each(
+      context.get(), [&] { return tetlod_transfer(context.get(), &from, &to); },
+      [&](bool failed) { EXPECT_EQ(room == std::vector<double>(room.size(), -99), failed); });
+  EXPECT_GT(failures, 5);
 }
 
 /// The estimate counts what rides along, and a limit below it is met by a status.

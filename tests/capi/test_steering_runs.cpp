@@ -135,23 +135,9 @@ TEST_F(SteeringRuns, EveryHookedAllocation) {
   const Outcome kept = outcome();
   ASSERT_EQ(tetlod_clear(context.get()), TETLOD_OK);
   submit_all(context.get());
-  const std::size_t before = allocator.in_use();
-  bool failed = true;
-  long n = 0;
-  for (; failed && n < 200000; n++) {
-    allocator.fail_after(n);
-    const tetlod_status status = tetlod_run(context.get());
-    failed = allocator.failed();
-    allocator.forget_failure();
-    ASSERT_EQ(status, failed ? TETLOD_ERR_MEMORY : TETLOD_OK) << n << ": " << message_of(context.get());
-    if (failed) {
-      ASSERT_EQ(allocator.in_use(), before) << n;
-    }
-    ASSERT_TRUE(outcome() == kept) << n;
-    if (n > 400) n += n / 20;
-  }
-  EXPECT_GT(n, 100);
-  EXPECT_FALSE(failed);
+  const long failures = allocator.fail_each(
+      context.get(), [&] { return tetlod_run(context.get()); }, [&](bool) { EXPECT_TRUE(outcome() == kept); }, 400);
+  EXPECT_GT(failures, 100);
 }
 
 TEST_F(SteeringRuns, TheEstimateCountsThem) {

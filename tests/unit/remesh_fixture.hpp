@@ -27,6 +27,19 @@ inline long double det(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &
          m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
 }
 
+/// All that a result has, in a row.
+inline std::vector<char> bytes(const RemeshResult &result) {
+  std::vector<char> all;
+  const auto add = [&](const auto &array) {
+    const char *data = reinterpret_cast<const char *>(array.data());
+    all.insert(all.end(), data, data + array.size() * sizeof array[0]);
+  };
+  add(result.points);
+  add(result.tets);
+  add(result.origin);
+  return all;
+}
+
 class Remesh : public testing::Test {
  protected:
   Memory memory;

@@ -260,18 +260,6 @@ TEST_F(Remesh, MemoryLimitAtAnyAllocation) {
   EXPECT_GT(failures, 5);
 }
 
-std::vector<char> bytes(const RemeshResult &result) {
-  std::vector<char> all;
-  const auto add = [&](const auto &array) {
-    const char *data = reinterpret_cast<const char *>(array.data());
-    all.insert(all.end(), data, data + array.size() * sizeof array[0]);
-  };
-  add(result.points);
-  add(result.tets);
-  add(result.origin);
-  return all;
-}
-
 TEST_F(Remesh, SameBytesEveryTime) {
   Surface surface = sphere(memory, 10);
   append(surface, sphere(memory, 4, 0.4), true);

@@ -47,18 +47,6 @@ class RemeshSolids : public Remesh {
     Job own(memory, several);
     remesh(surface, samples, worker, own, into, each_alone);
   }
-
-  std::vector<char> bytes_of(const RemeshResult &of) const {
-    std::vector<char> all;
-    const auto add = [&](const auto &array) {
-      const char *data = reinterpret_cast<const char *>(array.data());
-      all.insert(all.end(), data, data + array.size() * sizeof array[0]);
-    };
-    add(of.points);
-    add(of.tets);
-    add(of.origin);
-    return all;
-  }
 };
 
 TEST_F(RemeshSolids, EachForItself) {
@@ -71,11 +59,11 @@ TEST_F(RemeshSolids, EachForItself) {
 
 TEST_F(RemeshSolids, SameBytesForAnyNumberOfThreads) {
   run_with(1, result);
-  const std::vector<char> first = bytes_of(result);
+  const std::vector<char> first = bytes(result);
   for (const int threads : {2, 3, 8}) {
     RemeshResult again(memory);
     run_with(threads, again);
-    EXPECT_EQ(bytes_of(again), first) << threads;
+    EXPECT_EQ(bytes(again), first) << threads;
   }
   EXPECT_EQ(children_of(::getpid()).size(), 4u) << "one for each solid, at most";
 }
@@ -109,9 +97,9 @@ TEST_F(RemeshSolids, OneSolidHasTheSameBytesAsEver) {
   Surface one = torus(memory, 30, 12);
   append(one, sphere(memory, 2, 0.2, Vec3(1, 0, 0)), true);
   run(one, no_samples());
-  const std::vector<char> before = bytes_of(result);
+  const std::vector<char> before = bytes(result);
   remesh(one, no_samples(), worker, job, result, each_alone);
-  EXPECT_EQ(bytes_of(result), before);
+  EXPECT_EQ(bytes(result), before);
 }
 
 TEST_F(RemeshSolids, Groups) {
@@ -214,7 +202,7 @@ TEST_F(RemeshSolids, PartsThatNeedFurtherAttempts) {
 
 TEST_F(RemeshSolids, OneThatCannotBeFilledIsNamed) {
   run_with(2, result);
-  const std::vector<char> before = bytes_of(result);
+  const std::vector<char> before = bytes(result);
   Surface pushed_through = sphere(memory, 4, 1, Vec3(10));
   pushed_through.points[0] += 2.5 * (Vec3(10) - pushed_through.points[0]);
   append(surface, pushed_through);
@@ -225,7 +213,7 @@ TEST_F(RemeshSolids, OneThatCannotBeFilledIsNamed) {
     EXPECT_EQ(error.status(), Status::remesh);
     EXPECT_NE(std::string(error.what()).find("part 5 of 5, plain: "), std::string::npos) << error.what();
   }
-  EXPECT_EQ(bytes_of(result), before);
+  EXPECT_EQ(bytes(result), before);
   run(sphere(memory, 3), no_samples());  // the worker is as good as before
 }
 
