@@ -91,6 +91,7 @@ class Session {
   void fetch_field(Bytes &in);
   void fetch_stencil(Bytes &in);
   void transfer(Bytes &in);
+  void stencil_was_found() { stencil_known_ = true; }
 
   /// The result is the one that the last successful run gave.
   void check_kept();

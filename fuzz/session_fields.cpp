@@ -346,7 +346,7 @@ void Session::fetch_stencil(Bytes &in) {
   const std::int64_t written = status == TETLOD_OK ? points : 0;
   DEMAND(ids.rest_untouched(written) && weights.rest_untouched(written), "only the stencil is written");
   if (status != TETLOD_OK) return;
-  stencil_known_ = true;
+  stencil_was_found();
   const Stencil means = stencil();
   for (std::int64_t i = 0; i < points; i++)
     for (std::int32_t k = 0; k < 4; k++) {
@@ -380,7 +380,7 @@ void Session::transfer(Bytes &in) {
   DEMAND(status == wanted || explains_limit(status), "moving a field: %d, not %d: %s", status, wanted,
          message().c_str());
   DEMAND(simplified.rest_untouched(status == TETLOD_OK ? points : 0), "only the tuples of the result are written");
-  if (status == TETLOD_OK) stencil_known_ = true;
+  if (status == TETLOD_OK) stencil_was_found();
   if (status != TETLOD_OK || conditions_.memory_limit) return;
   if (to.type != TETLOD_FLOAT64) return;
   const Stencil means = stencil();
