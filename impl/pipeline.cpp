@@ -132,6 +132,7 @@ class Pipeline {
     report_.max_deviation = coarse.deviation / diagonal;
     describe_simplified_boundary(topology_, report_);
     report_.samples = report_.selected_samples = std::int64_t(mesh_.points.size()) - report_.boundary_points_out;
+    report_.samples_outside = report_.samples_too_near = report_.steiner_points = 0;  // a round before may have had some
     return true;
   }
 
