@@ -4,9 +4,9 @@
 #include <optional>
 
 #include "deviation.hpp"
+#include "solid_blocks.hpp"
 #include "solid_mesh.hpp"
 #include "solid_rules.hpp"
-#include "sweep.hpp"
 
 namespace tetlod {
 
@@ -15,7 +15,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Part of the vertices whose cheapest edges a round looks at. A smaller one comes nearer to the cheapest edge of all
 /// first, and loses no less.
-constexpr double part_of_round = 0.5;
+constexpr double part_of_round = 0.33;
 /// Tets that a collapse takes away, about.
 constexpr double tets_a_collapse = 5.5;
 /// Where nothing is lost, short edges first: what the square of a length counts as.
@@ -24,12 +24,10 @@ constexpr double shape_share = 1e-6;
 constexpr double volume_to_lose = 0.01;
 /// A best place further off than this part of the edge is none.
 constexpr double longest_step = 0.5;
-constexpr std::size_t largest_batch = 32;
 
 template <std::size_t m>
 struct SolidCollapse {
-  using allocator_type = std::pmr::polymorphic_allocator<std::byte>;
-  explicit SolidCollapse(allocator_type memory) : star(*static_cast<Memory *>(memory.resource())) {}
+  explicit SolidCollapse(Memory &memory) : star(memory) {}
   SolidEdge old;
   Vector<3 + m> place{};
   std::int32_t found_at = -1;  ///< the end whose cheapest edge it is
@@ -46,32 +44,41 @@ class SolidDecimator {
         range_(range_of(original)),
         scales_(scales_of(original, box_of(surface.points).diagonal(), range_)),
         job_(job),
-        mesh_(original, boundary, scales_, job),
-        cheapest_(original.points.size(), CheapestEdge(), &job.memory),
-        moved_(original.points.size(), -1, &job.memory),
+        mesh_(put_in_order(original, boundary, job), original.values<m>(), scales_, job),
+        count_(std::int64_t(mesh_.tets.size())),
+        blocks_(mesh_.points.size(), job.memory),
+        rooms_(&job.memory),
+        works_(&job.memory),
+        cheapest_(mesh_.points.size(), CheapestEdge(), &job.memory),
+        moved_(mesh_.points.size(), -1, &job.memory),
         left_(&job.memory),
         changed_(&job.memory) {
-    for (std::size_t v = 0; v < options.kept.size(); v++)
-      if (options.kept[v]) mesh_.ranks[v] = mesh_.on_boundary(std::int32_t(v)) ? Rank::kept_boundary : Rank::kept_inner;
-    for (std::size_t v = 0; v < options.touching.size(); v++)
-      if (options.touching[v]) mesh_.ranks[v] = Rank::touching;
-    for (std::size_t v = 0; v < original.points.size(); v++)
-      if (mesh_.has_vertex(std::int32_t(v))) left_.push_back(std::int32_t(v));
-    const auto boundary_points = double(surface.points.size());
-    volume_of_collapse_ = volume_to_lose * mesh_.volume() / boundary_points;
+    for (std::size_t i = 0; i < mesh_.points.size(); i++) {
+      const auto v = std::int32_t(i);
+      const auto flagged = [&](Span<const std::uint8_t> flags) {
+        return !flags.empty() && flags[std::size_t(mesh_.origin[i])];
+      };
+      if (flagged(options.kept)) mesh_.ranks[i] = mesh_.on_boundary(v) ? Rank::kept_boundary : Rank::kept_inner;
+      if (flagged(options.touching)) mesh_.ranks[i] = Rank::touching;
+      left_.push_back(v);
+    }
+    rooms_.reserve(SolidBlocks::most);
+    works_.reserve(SolidBlocks::most);
+    for (std::size_t b = 0; b < SolidBlocks::most; b++) {
+      rooms_.emplace_back(job.memory);
+      works_.emplace_back(job.memory);
+    }
+    volume_of_collapse_ = volume_to_lose * mesh_.volume() / double(surface.points.size());
     if (options.max_deviation > 0) deviation_.emplace(surface, options.max_deviation, job);
   }
 
   void run(std::int64_t target) {
-    const double surplus = double(mesh_.count - target);
+    const double surplus = double(count_ - target);
     find_cheapest_edges(left_);
-    Array<std::int32_t> items(&job_.memory);
-    for (double limit; mesh_.count > target && (limit = limit_of_round(target)) < infinity;) {
-      job_.poll(1 - double(mesh_.count - target) / surplus);
-      items.clear();
-      for (std::int32_t v : left_)
-        if (cheapest(v).cost <= limit) items.push_back(v);
-      collapse_some(spread(items), limit, target);
+    for (double limit; count_ > target && (limit = limit_of_round(target)) < infinity;) {
+      job_.poll(1 - double(count_ - target) / surplus);
+      collapse_some(limit, target);
+      mesh_.tidy({rooms_.data(), rooms_.size()});
       drop_gone(left_);
       drop_gone(changed_);
       round_++;
@@ -80,15 +87,17 @@ class SolidDecimator {
   }
 
   void write(TetMesh &out, Array<std::int32_t> &origin) const {
-    Array<std::int32_t> number(original_.points.size(), -1, &job_.memory);
-    for (std::int32_t v : left_) {
-      if (!mesh_.has_vertex(v)) continue;
-      const bool moved = mesh_.point(v) != original_.points[std::size_t(v)];
+    Array<std::int32_t> known(original_.points.size(), -1, &job_.memory), number(mesh_.points.size(), -1, &job_.memory);
+    for (std::int32_t v : left_) known[std::size_t(mesh_.origin[std::size_t(v)])] = v;
+    for (std::size_t i = 0; i < known.size(); i++) {
+      const std::int32_t v = known[i];
+      if (v < 0) continue;
+      const bool moved = mesh_.point(v) != original_.points[i];
       number[std::size_t(v)] = std::int32_t(out.points.size());
       out.points.push_back(mesh_.point(v));
-      const Values<m> values = moved ? values_of(v) : original_.values<m>()[std::size_t(v)];
+      const Values<m> values = moved ? values_of(v) : original_.values<m>()[i];
       out.scalars.insert(out.scalars.end(), values.begin(), values.end());
-      origin.push_back(moved ? -1 : v);
+      origin.push_back(moved ? -1 : std::int32_t(i));
     }
     job_.poll(1);
     const auto append = [&](const auto &simplices, auto &to) {
@@ -110,10 +119,18 @@ class SolidDecimator {
     int round = -1;
   };
 
-  /// Of a vertex without such an edge that is looked at again after the round.
-  static constexpr int waiting = -2;
+  /// Rounds of a vertex none of whose edges is admissible, and of one that is looked at again after the round.
+  static constexpr int stuck = -2, waiting = -3;
 
   using Place = Vector<3 + m>;
+
+  /// What a block does in a round.
+  struct Work {
+    explicit Work(Memory &memory) : items(&memory), changed(&memory), collapse(memory) {}
+    Array<std::int32_t> items, changed;
+    SolidCollapse<m> collapse;
+    std::int64_t most = 0, gone = 0;  ///< tets
+  };
 
   /// Of the values that tets have: other points' mean nothing.
   static ValueRange<m> range_of(const MeshView &original) {
@@ -164,10 +181,17 @@ class SolidDecimator {
     return best;
   }
 
+  /// An edge is looked at from one end, the one that moved last.
+  bool owns(std::int32_t v, std::int32_t u) const {
+    const int at = moved_[std::size_t(v)], other_at = moved_[std::size_t(u)];
+    return at != other_at ? at > other_at : v < u;
+  }
+
   void find_cheapest_edge(std::int32_t v, double more_than) {
     CheapestEdge found;
     found.round = round_;
     for (std::int32_t u : mesh_.neighbours.of(v)) {
+      if (!owns(v, u)) continue;
       const BestOfEdge best = cost(v, u);
       if (best.cost > more_than && best.cost < found.cost) found = {best.cost, best.t, u, round_};
     }
@@ -195,31 +219,51 @@ class SolidDecimator {
     for (std::int32_t v : left_)
       if (cheapest(v).cost < infinity) costs.push_back(cheapest(v).cost);
     if (costs.empty()) return infinity;
-    const double needed = 1 + double(mesh_.count - target) / tets_a_collapse;
+    const double needed = 1 + double(count_ - target) / tets_a_collapse;
     const double wanted = std::min(part_of_round * double(left_.size()), needed);
     const auto last = costs.begin() + std::ptrdiff_t(std::min(std::size_t(wanted), costs.size() - 1));
     std::nth_element(costs.begin(), last, costs.end());
     return *last;
   }
 
-  /// Far ones follow one another, so that those of a batch are apart, and each batch is near the one before.
-  Array<std::int32_t> spread(Span<const std::int32_t> items) const {
-    const std::size_t stride = (items.size() + largest_batch - 1) / largest_batch;
-    Array<std::int32_t> ordered(&job_.memory);
-    ordered.reserve(items.size());
-    for (std::size_t first = 0; first < stride; first++)
-      for (std::size_t i = first; i < items.size(); i += stride) ordered.push_back(items[i]);
-    return ordered;
+  void collapse_some(double limit, std::int64_t target) {
+    Array<std::int32_t> items(&job_.memory);
+    for (std::int32_t v : left_)
+      if (cheapest(v).cost <= limit) items.push_back(v);
+    blocks_.cut(mesh_, left_, round_, most_blocks(items.size()), job_);
+    for (std::int32_t v : items) works_[blocks_.of(v)].items.push_back(v);
+    const double share = double(count_ - target) / double(items.size());
+    job_.parallel.for_blocks(blocks_.count(), 1, [&](std::size_t b, std::size_t) {
+      Work &work = works_[b];
+      work.most = std::int64_t(std::ceil(share * double(work.items.size())));
+      collapse_in_block(limit, work, rooms_[b]);
+    });
+    take_over(items.size());
   }
 
-  void collapse_some(Span<const std::int32_t> items, double limit, std::int64_t target) {
+  /// Few are soon done; what bounds the deviation is one for all; and where most wait, one block gets on.
+  std::size_t most_blocks(std::size_t items) const {
+    constexpr std::size_t few = 256;
+    return items < few || deviation_ || most_waited_ ? 1 : SolidBlocks::most;
+  }
+
+  void collapse_in_block(double limit, Work &work, CollapseRoom &room) {
+    for (std::size_t i = 0; i < work.items.size() && work.gone < work.most; i++) {
+      if (i % 64 == 0) job_.poll(0);
+      if (find(work.items[i], limit, work.collapse)) make(work.collapse, work, room);
+    }
+  }
+
+  void take_over(std::size_t items) {
     changed_.clear();
-    sweep<SolidCollapse<m>>(
-        items, batches_of(items.size(), largest_batch, job_.memory), job_, mesh_,
-        [&](std::int32_t v, SolidCollapse<m> &collapse) { return mesh_.count > target && find(v, limit, collapse); },
-        [&](const SolidCollapse<m> &collapse) {
-          if (mesh_.count > target) make(collapse);
-        });
+    for (Work &work : works_) {
+      count_ -= work.gone;
+      changed_.insert(changed_.end(), work.changed.begin(), work.changed.end());
+      work.items.clear();
+      work.changed.clear();
+      work.gone = 0;
+    }
+    most_waited_ = blocks_.count() > 1 && changed_.size() * 8 < items;
   }
 
   void drop_gone(Array<std::int32_t> &vertices) const {
@@ -231,19 +275,22 @@ class SolidDecimator {
 
   /// The cheapest admissible one of an edge of v within the limit. A vertex moves once a round.
   bool find(std::int32_t v, double limit, SolidCollapse<m> &collapse) {
-    if (!mesh_.has_vertex(v) || moved_[std::size_t(v)] == round_) return false;
+    if (!mesh_.has_vertex(v) || moved_[std::size_t(v)] == round_ || waits(v)) return false;
     if (!is_known(cheapest(v))) find_cheapest_edge(v, -infinity);
-    if (!(cheapest(v).cost <= limit)) return false;
+    if (!(cheapest(v).cost <= limit) || waits(cheapest(v).other)) return false;
     return is_admissible(v, cheapest(v), collapse) || find_dearer(v, limit, collapse);
   }
+
+  bool waits(std::int32_t v) const { return !blocks_.is_inside(mesh_, v); }
 
   /// The same among the edges that cost more than the cheapest, which is not admissible.
   bool find_dearer(std::int32_t v, double limit, SolidCollapse<m> &collapse) {
     Few<CheapestEdge, largest_cavity> dearer;
     const double tried = cheapest(v).cost;
     CheapestEdge later;
-    later.round = round_;
+    later.round = stuck;
     for (std::int32_t u : mesh_.neighbours.of(v)) {
+      if (!owns(v, u)) continue;
       const BestOfEdge best = cost(v, u);
       if (best.cost > tried && best.cost <= limit) dearer.push({best.cost, best.t, u, round_});
       if (best.cost > limit && best.cost < later.cost) later = {best.cost, best.t, u, round_};
@@ -254,6 +301,7 @@ class SolidDecimator {
     std::sort(dearer.begin(), dearer.end(), is_cheaper);
     for (const CheapestEdge &edge : dearer) {
       cheapest(v) = edge;
+      if (waits(edge.other)) return false;
       if (is_admissible(v, edge, collapse)) return true;
     }
     cheapest(v) = later;
@@ -262,11 +310,10 @@ class SolidDecimator {
 
   bool is_admissible(std::int32_t v, const CheapestEdge &cheapest, SolidCollapse<m> &collapse) {
     const auto [stays, gone] = ends_of(v, cheapest.other);
-    SolidEdge &edge = collapse.old;
     collapse.found_at = v;
-    if (!look_around(mesh_, stays, gone, edge)) return false;
+    if (!look_around(mesh_, stays, gone, collapse.old)) return false;
     collapse.of_boundary = mesh_.on_boundary(gone);
-    return find_place(cheapest.t, collapse) && !breaks_topology(mesh_, edge);
+    return find_place(cheapest.t, collapse) && !breaks_topology(mesh_, collapse.old);
   }
 
   /// The best place near the edge, or, where that is none, the best along it.
@@ -300,7 +347,7 @@ class SolidDecimator {
            !makes_sliver(star);
   }
 
-  void make(const SolidCollapse<m> &collapse) {
+  void make(const SolidCollapse<m> &collapse, Work &work, CollapseRoom &room) {
     const std::int32_t v = collapse.old.stays;
     if (deviation_ && collapse.of_boundary) {
       if (deviation_->is_passed(collapse.star)) {
@@ -309,14 +356,15 @@ class SolidDecimator {
       }
       deviation_->move_on(collapse.star);
     }
-    mesh_.collapse(collapse.old, collapse.place);
+    mesh_.collapse(collapse.old, collapse.place, room);
+    work.gone += std::int64_t(collapse.old.edge_tets.size());
     moved_[std::size_t(v)] = round_;
-    changed_.push_back(v);
+    work.changed.push_back(v);
     // What was not admissible around it may be so now.
     for (std::int32_t u : mesh_.neighbours.of(v))
-      if (cheapest(u).cost == infinity && cheapest(u).round != waiting) {
+      if (cheapest(u).round == stuck) {
         cheapest(u).round = waiting;
-        changed_.push_back(u);
+        work.changed.push_back(u);
       }
   }
 
@@ -325,6 +373,11 @@ class SolidDecimator {
   Values<m> scales_;  // length that a unit of each field counts as
   Job &job_;
   SolidMesh<m> mesh_;
+  std::int64_t count_;  // of the tets that are left
+  SolidBlocks blocks_;
+  Array<CollapseRoom> rooms_;  // of each block
+  Array<Work> works_;
+  bool most_waited_ = false;
   std::optional<DeviationLimit> deviation_;
   double volume_of_collapse_ = 0;
   int round_ = 0;

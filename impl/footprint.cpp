@@ -17,11 +17,11 @@ namespace {
 // Of decimation and of what a result is made from.
 constexpr double bytes_a_triangle = 530, bytes_a_result_point = 360;
 // Of a run with a target: neighbours, frames or normal equations, and room to grow.
-constexpr double bytes_a_refined_tet = 250, bytes_a_refined_point = 70, bytes_a_probe = sizeof(Probe<1>) + 8;
+constexpr double bytes_a_refined_tet = 275, bytes_a_refined_point = 70, bytes_a_probe = sizeof(Probe<1>) + 8;
 // Of these for each field more that steers.
 constexpr double values_a_refined_tet = 6, values_a_refined_point = 7, values_a_solid_point = 8;
 // Of the original while its edges collapse.
-constexpr double bytes_a_solid_tet = 56, bytes_a_solid_point = 354, bytes_of_collapses = 9e5;
+constexpr double bytes_a_solid_tet = 74, bytes_a_solid_point = 225, bytes_of_collapses = 2e5;
 // Of a field: original vertices are held by many tets, the centroids of cells by one.
 constexpr double bytes_a_located_point = 400, bytes_a_located_cell = 190, bytes_a_stencil = 48;
 

@@ -24,12 +24,11 @@ Vec3 point_of(const Vector<n> &place) {
   return {place[0], place[1], place[2]};
 }
 
-/// d^T a d + 2 g . d + e at the distance d from where it is kept.
+/// d^T a d + 2 g . d at the distance d from where it is kept, beside what it is there.
 template <std::size_t n>
 struct LocalQuadric {
   Triangular<n> a{};
   Vector<n> g{};
-  double e = 0;
 
   Vector<n> times(const Vector<n> &d) const {
     Vector<n> image{};
@@ -43,17 +42,10 @@ struct LocalQuadric {
       for (std::size_t j = 0; j <= i; j++) a[entry_of(i, j)] += weight * normal[i] * normal[j];
   }
   /// The same function, kept at the distance d.
-  LocalQuadric moved(const Vector<n> &d) const {
-    LocalQuadric q = *this;
-    const Vector<n> image = times(d);
-    q.e = e + 2 * dot<n>(g, d) + dot<n>(d, image);
-    q.g = along(g, 1, image);
-    return q;
-  }
+  LocalQuadric moved(const Vector<n> &d) const { return {a, along(g, 1, times(d))}; }
   void add(const LocalQuadric &o) {
     for (std::size_t i = 0; i < a.size(); i++) a[i] += o.a[i];
     g = along(g, 1, o.g);
-    e += o.e;
   }
 };
 

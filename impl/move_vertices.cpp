@@ -207,8 +207,8 @@ std::int64_t move_vertices(std::size_t first, Job &job, AdaptiveMesh<m> &mesh) {
   Array<std::int32_t> items(&job.memory);
   for (std::size_t v = first; v < mesh.points.size(); v++)
     if (!mesh.fixed[v] && !mesh.kept[v] && mesh.tet_of[v] >= 0) items.push_back(std::int32_t(v));
-  const StarLists tets(Span<const Tet>(mesh.tets), mesh.points.size(), 0,
-                       job);  // which stay: vertices move, nothing else
+  // They stay: vertices move, nothing else.
+  const StarLists tets(Span<const Tet>(mesh.tets), mesh.points.size(), job);
   const Array<std::size_t> batches = batches_apart(mesh, tets, job, items);
   const MoveFinder<m> finder(tets, quiet * 4 * mesh.total_error() / double(mesh.points.size()), mesh);
   return sweep<Move<m>>(

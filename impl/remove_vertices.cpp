@@ -66,7 +66,7 @@ std::int64_t remove_vertices(double price, Job &job, AdaptiveMesh<m> &mesh) {
     if (!mesh.fixed[v] && !mesh.kept[v] && mesh.tet_of[v] >= 0) items.push_back(std::int32_t(v));
   const CollapseFinder finder(price, mesh);
   const Array<std::size_t> batches =
-      batches_apart(mesh, StarLists(Span<const Tet>(mesh.tets), mesh.points.size(), 0, job), job, items);
+      batches_apart(mesh, StarLists(Span<const Tet>(mesh.tets), mesh.points.size(), job), job, items);
   return sweep<Collapse>(
       items, batches, job, mesh, [&](std::int32_t v, Collapse &collapse) { return finder.find(v, collapse); },
       [&](const Collapse &collapse) {

@@ -1,7 +1,7 @@
 // A tetrahedral mesh and its boundary while edges collapse: what is around each vertex.
 #pragma once
-#include "extract_boundary.hpp"
 #include "few.hpp"
+#include "solid_in_order.hpp"
 #include "star_lists.hpp"
 
 namespace tetlod {
@@ -22,10 +22,18 @@ struct SolidEdge {
   Cavity edge_tets;
 };
 
+/// What collapses need, for one thread at a time.
+struct CollapseRoom {
+  explicit CollapseRoom(Memory &memory) : tets(memory), triangles(memory), neighbours(memory), list(&memory) {}
+  ListRoom tets, triangles, neighbours;
+  Array<std::int32_t> list;
+};
+
 /// How the solid hangs together.
 class SolidComplex {
  public:
-  SolidComplex(const MeshView &original, const Boundary &boundary, Job &job);
+  /// Takes all but `origin`.
+  SolidComplex(SolidInOrder &&solid, Job &job);
 
   Array<Vec3> points;
   Array<Rank> ranks;
@@ -33,7 +41,6 @@ class SolidComplex {
   Array<Triangle> triangles;        ///< the boundary, outward; likewise
   StarLists tets_of, triangles_of;  ///< some of them may be gone
   StarLists neighbours;             ///< of each vertex
-  std::int64_t count;               ///< of the tets that are there
   double least_shape2;              ///< square of the shape of a tet, below which it is flat
 
   const Vec3 &point(std::int32_t v) const { return points[std::size_t(v)]; }
@@ -46,23 +53,19 @@ class SolidComplex {
   Vec3 normal(std::int32_t triangle) const;
   double volume() const;  ///< before any collapse
 
-  /// From here on touched() says of edges whether something has become of a tet around them.
-  void begin_batch() { batch_++; }
-  bool touched(const SolidEdge &edge) const;
+  /// The end that goes becomes the one that stays, which comes to be at `point`. Writes to the two ends, their tets
+  /// and their neighbours' lists alone.
+  void collapse(const SolidEdge &edge, const Vec3 &point, CollapseRoom &room);
 
-  /// The end that goes becomes the one that stays, which comes to be at `point`.
-  void collapse(const SolidEdge &edge, const Vec3 &point);
+  /// Lists side by side again, when those that have grown take much room.
+  void tidy(Span<CollapseRoom> rooms);
 
  private:
   void find_neighbours(Job &job);
   double usual_shape2(Memory &memory) const;
-  template <class Simplices>
-  void merge_stars(const SolidEdge &edge, Simplices &simplices, StarLists &stars);
-  void merge_neighbours(const SolidEdge &edge);
-
-  Array<std::uint32_t> touched_;  // the batch in which each tet changed last
-  std::uint32_t batch_ = 0;
-  Array<std::int32_t> list_;
+  void merge_tets(const SolidEdge &edge, CollapseRoom &room);
+  void merge_triangles(const SolidEdge &edge, CollapseRoom &room);
+  void merge_neighbours(const SolidEdge &edge, CollapseRoom &room);
 };
 
 }  // namespace tetlod

@@ -5,12 +5,13 @@
 namespace tetlod {
 
 template <std::size_t m>
-SolidMesh<m>::SolidMesh(const MeshView &original, const Boundary &boundary, const Values<m> &scales, Job &job)
-    : SolidComplex(original, boundary, job), vertices_(original.points.size(), Vertex(), &job.memory) {
-  const Span<const Values<m>> values = original.values<m>();
+SolidMesh<m>::SolidMesh(SolidInOrder solid, Span<const Values<m>> values, const Values<m> &scales, Job &job)
+    : SolidComplex(std::move(solid), job),
+      origin(std::move(solid.origin)),
+      vertices_(points.size(), Vertex(), &job.memory) {
   for (std::size_t v = 0; v < vertices_.size(); v++)
     for (std::size_t i = 0; i < 3 + m; i++)
-      vertices_[v].place[i] = i < 3 ? original.points[v][int(i)] : scales[i - 3] * values[v][i - 3];
+      vertices_[v].place[i] = i < 3 ? points[v][int(i)] : scales[i - 3] * values[std::size_t(origin[v])][i - 3];
   find_quadrics(job);
 }
 
@@ -32,12 +33,9 @@ typename SolidMesh<m>::Gradients SolidMesh<m>::gradients(const Tet &t) const {
 template <std::size_t m>
 double SolidMesh<m>::weight_of_planes() const {
   constexpr double least = 20, by_share = 3.5, most = 2e4;
-  double used = 0, boundary = 0;
-  for (std::size_t v = 0; v < vertices_.size(); v++) {
-    used += has_vertex(std::int32_t(v));
-    boundary += on_boundary(std::int32_t(v));
-  }
-  return std::min(least + by_share * std::pow(used / boundary, 7), most);
+  double boundary = 0;
+  for (std::size_t v = 0; v < vertices_.size(); v++) boundary += on_boundary(std::int32_t(v));
+  return std::min(least + by_share * std::pow(double(vertices_.size()) / boundary, 7), most);
 }
 
 template <std::size_t m>
@@ -74,13 +72,13 @@ LocalQuadric<3 + m> SolidMesh<m>::quadric_of(std::int32_t v, Span<const Gradient
 }
 
 template <std::size_t m>
-void SolidMesh<m>::collapse(const SolidEdge &edge, const Place &place) {
+void SolidMesh<m>::collapse(const SolidEdge &edge, const Place &place, CollapseRoom &room) {
   Vertex &stays = vertices_[std::size_t(edge.stays)];
   const Vertex &gone = vertex(edge.gone);
   LocalQuadric<3 + m> sum = stays.quadric.moved(minus(place, stays.place));
   sum.add(gone.quadric.moved(minus(place, gone.place)));
   stays = {place, sum};
-  SolidComplex::collapse(edge, point_of(place));
+  SolidComplex::collapse(edge, point_of(place), room);
 }
 
 template class SolidMesh<1>;

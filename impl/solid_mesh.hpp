@@ -16,13 +16,15 @@ class SolidMesh : public SolidComplex {
     LocalQuadric<3 + m> quadric;
   };
 
-  /// scales: the length that a unit of each field counts as.
-  SolidMesh(const MeshView &original, const Boundary &boundary, const Values<m> &scales, Job &job);
+  /// values: of the original vertices; scales: the length that a unit of each field counts as.
+  SolidMesh(SolidInOrder solid, Span<const Values<m>> values, const Values<m> &scales, Job &job);
+
+  Array<std::int32_t> origin;  ///< the original vertex of each one
 
   const Vertex &vertex(std::int32_t v) const { return vertices_[std::size_t(v)]; }
 
   /// The end that goes becomes the one that stays, which comes to be at `place`, with the quadrics of both.
-  void collapse(const SolidEdge &edge, const Place &place);
+  void collapse(const SolidEdge &edge, const Place &place, CollapseRoom &room);
 
  private:
   using Gradients = std::array<Vec3, m>;

@@ -28,20 +28,27 @@ std::uint64_t morton_code(const Vec3 &p, const Box &box) {
 
 }  // namespace
 
+Array<std::int32_t> order_by_place(Span<const Vec3> places, Job &job) {
+  const Box box = box_of(places);
+  Array<std::pair<std::uint64_t, std::int32_t>> codes(places.size(), &job.memory);
+  job.parallel.for_blocks(places.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; i++) codes[i] = {morton_code(places[i], box), std::int32_t(i)};
+    job.poll(0);
+  });
+  std::sort(codes.begin(), codes.end(), PollingLess(job, 0, std::less<>()));
+  Array<std::int32_t> order(&job.memory);
+  order.reserve(codes.size());
+  for (const auto &[code, i] : codes) order.push_back(i);
+  return order;
+}
+
 void sort_by_place(Span<const Vec3> points, Array<Tet> &tets, Job &job) {
-  const Box box = box_of(points);
-  Array<std::pair<std::uint64_t, std::int32_t>> order(&job.memory);
-  order.reserve(tets.size());
-  for (std::size_t t = 0; t < tets.size(); t++) {
-    if (t % 65536 == 0) job.poll(0);
-    Vec3 centroid(0);
-    for (std::int32_t v : tets[t]) centroid += 0.25 * points[std::size_t(v)];
-    order.push_back({morton_code(centroid, box), std::int32_t(t)});
-  }
-  std::sort(order.begin(), order.end(), PollingLess(job, 0, std::less<>()));
+  Array<Vec3> centroids(tets.size(), Vec3(0), &job.memory);
+  for (std::size_t t = 0; t < tets.size(); t++)
+    for (std::int32_t v : tets[t]) centroids[t] += 0.25 * points[std::size_t(v)];
   Array<Tet> sorted(&job.memory);
   sorted.reserve(tets.size());
-  for (const auto &[code, t] : order) sorted.push_back(tets[std::size_t(t)]);
+  for (std::int32_t t : order_by_place(centroids, job)) sorted.push_back(tets[std::size_t(t)]);
   tets.swap(sorted);
 }
 

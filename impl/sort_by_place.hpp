@@ -1,11 +1,14 @@
-// Tets in an order in which neighbours in space are mostly near each other in memory.
+// Orders in which neighbours in space are mostly near each other in memory.
 #pragma once
 #include "job.hpp"
 #include "mesh.hpp"
 
 namespace tetlod {
 
-/// Along Morton's curve through the tets' centroids.
+/// The numbers of the places, along Morton's curve through them.
+Array<std::int32_t> order_by_place(Span<const Vec3> places, Job &job);
+
+/// Tets along the curve through their centroids.
 void sort_by_place(Span<const Vec3> points, Array<Tet> &tets, Job &job);
 
 }  // namespace tetlod

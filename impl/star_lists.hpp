@@ -7,82 +7,103 @@
 
 namespace tetlod {
 
-class StarLists {
+/// Room for lists that grow, for one thread at a time.
+class ListRoom {
  public:
-  /// Empty lists, with room for so many entries.
-  StarLists(std::size_t vertices, std::size_t room, Job &job)
-      : first_(vertices, 0, &job.memory), count_(vertices, 0, &job.memory), items_(&job.memory) {
-    items_.reserve(room);
+  explicit ListRoom(Memory &memory) : pieces_(&memory) {}
+
+  std::int32_t *take(std::size_t entries) {
+    constexpr std::size_t usual = 4096;
+    if (pieces_.empty() || used_ + entries > pieces_.back().size()) {
+      pieces_.emplace_back(std::max(entries, usual));
+      used_ = 0;
+    }
+    taken_ += entries;
+    used_ += entries;
+    return pieces_.back().data() + used_ - entries;
+  }
+  std::size_t taken() const { return taken_; }
+  void clear() {
+    pieces_.clear();
+    taken_ = 0;
   }
 
-  /// The simplices of each vertex, but those that are gone, whose first corner is -1. room: as above, for more than
-  /// what there is.
+ private:
+  Array<Array<std::int32_t>> pieces_;
+  std::size_t used_ = 0, taken_ = 0;
+};
+
+class StarLists {
+ public:
+  /// Empty lists.
+  StarLists(std::size_t vertices, Job &job)
+      : begin_(vertices, nullptr, &job.memory), count_(vertices, 0, &job.memory), items_(&job.memory) {}
+  StarLists(StarLists &&) = default;
+
+  /// The simplices of each vertex, but those that are gone, whose first corner is -1.
   template <std::size_t corners>
-  StarLists(Span<const std::array<std::int32_t, corners>> simplices, std::size_t vertices, std::size_t room, Job &job)
-      : StarLists(vertices, room, job) {
+  StarLists(Span<const std::array<std::int32_t, corners>> simplices, std::size_t vertices, Job &job)
+      : StarLists(vertices, job) {
     job.poll(0);
     for (const auto &s : simplices)
       if (s[0] >= 0)
         for (std::int32_t v : s) count_[std::size_t(v)]++;
-    std::size_t next = 0;
+    std::size_t total = 0;
+    for (std::uint32_t count : count_) total += count;
+    items_.resize(total);
+    std::int32_t *next = items_.data();
     for (std::size_t v = 0; v < vertices; v++) {
-      first_[v] = next;
+      begin_[v] = next;
       next += count_[v];
       count_[v] = 0;
     }
-    items_.resize(next);
     for (std::size_t i = 0; i < simplices.size(); i++) {
       if (i % 65536 == 0) job.poll(0);
       if (simplices[i][0] < 0) continue;
-      for (std::int32_t v : simplices[i]) items_[first_[std::size_t(v)] + count_[std::size_t(v)]++] = std::int32_t(i);
+      for (std::int32_t v : simplices[i]) begin_[std::size_t(v)][count_[std::size_t(v)]++] = std::int32_t(i);
     }
   }
 
-  Span<const std::int32_t> of(std::int32_t v) const {
-    return {items_.data() + first_[std::size_t(v)], count_[std::size_t(v)]};
-  }
+  Span<const std::int32_t> of(std::int32_t v) const { return {begin_[std::size_t(v)], count_[std::size_t(v)]}; }
 
   /// `list` is none of these lists.
-  void set(std::int32_t v, Span<const std::int32_t> list) {
-    if (list.size() <= count_[std::size_t(v)]) {
-      std::copy(list.begin(), list.end(), items_.begin() + std::ptrdiff_t(first_[std::size_t(v)]));
-    } else {
-      count_[std::size_t(v)] = 0;
-      if (items_.size() + list.size() > items_.capacity()) compact(list.size());
-      first_[std::size_t(v)] = items_.size();
-      items_.insert(items_.end(), list.begin(), list.end());
-    }
+  void set(std::int32_t v, Span<const std::int32_t> list, ListRoom &room) {
+    if (list.size() > count_[std::size_t(v)]) begin_[std::size_t(v)] = room.take(list.size());
+    std::copy(list.begin(), list.end(), begin_[std::size_t(v)]);
     count_[std::size_t(v)] = std::uint32_t(list.size());
   }
+  void clear(std::int32_t v) { count_[std::size_t(v)] = 0; }
 
   /// An entry in the list of v becomes another.
   void replace(std::int32_t v, std::int32_t entry, std::int32_t by) { *find(v, entry) = by; }
   void remove(std::int32_t v, std::int32_t entry) {
-    *find(v, entry) = items_[first_[std::size_t(v)] + count_[std::size_t(v)] - 1];
+    *find(v, entry) = begin_[std::size_t(v)][count_[std::size_t(v)] - 1];
     count_[std::size_t(v)]--;
   }
 
- private:
-  std::int32_t *find(std::int32_t v, std::int32_t entry) {
-    std::int32_t *begin = items_.data() + first_[std::size_t(v)];
-    return std::find(begin, begin + count_[std::size_t(v)], entry);
-  }
+  /// Of the lists that lie side by side.
+  std::size_t room() const { return items_.size(); }
 
-  /// Leaves out what lists have left behind.
-  void compact(std::size_t more) {
-    std::size_t used = more;
+  /// Side by side again; what lists have taken of a room is given back by who cleared it.
+  void compact() {
+    std::size_t used = 0;
     for (std::uint32_t count : count_) used += count;
-    Array<std::int32_t> items(items_.get_allocator());
-    items.reserve(used + used / 2);
-    for (std::size_t v = 0; v < first_.size(); v++) {
-      const auto begin = items_.begin() + std::ptrdiff_t(first_[v]);
-      first_[v] = items.size();
-      items.insert(items.end(), begin, begin + std::ptrdiff_t(count_[v]));
+    Array<std::int32_t> items(used, items_.get_allocator());
+    std::int32_t *next = items.data();
+    for (std::size_t v = 0; v < begin_.size(); v++) {
+      std::copy(begin_[v], begin_[v] + count_[v], next);
+      begin_[v] = next;
+      next += count_[v];
     }
     items_ = std::move(items);
   }
 
-  Array<std::size_t> first_;
+ private:
+  std::int32_t *find(std::int32_t v, std::int32_t entry) {
+    return std::find(begin_[std::size_t(v)], begin_[std::size_t(v)] + count_[std::size_t(v)], entry);
+  }
+
+  Array<std::int32_t *> begin_;
   Array<std::uint32_t> count_;
   Array<std::int32_t> items_;
 };

@@ -121,7 +121,7 @@ TEST_F(DecimateSolid, SolidsThatTouchKeepWhatTouches) {
 }
 
 TEST_F(DecimateSolid, SameBytesForAnyNumberOfThreads) {
-  Mesh mesh = kuhn_cube(12);
+  Mesh mesh = kuhn_cube(21);  // large enough for blocks
   set_scalars(mesh, waves);
   start_with(mesh);
   CoarseSolid one(host.memory);
@@ -132,6 +132,16 @@ TEST_F(DecimateSolid, SameBytesForAnyNumberOfThreads) {
     ASSERT_TRUE(decimate(0.1, several, other));
     expect_same(one.mesh, other.mesh);
   }
+}
+
+TEST_F(DecimateSolid, BlocksOfAPlateGetOn) {
+  Mesh mesh = kuhn_solid({120, 120, 1}, [](const Cell &) { return true; });
+  set_scalars(mesh, waves);
+  start_with(mesh);
+  CoarseSolid coarse(host.memory);
+  ASSERT_TRUE(decimate(0.1, host, coarse)) << failure;
+  expect_sound(coarse);
+  EXPECT_LE(coarse.mesh.tets.size(), std::size_t(options.tets));
 }
 
 TEST_F(DecimateSolid, KeptVerticesStayInsideAndOnTheBoundary) {
@@ -258,11 +268,11 @@ TEST_F(DecimateSolid, AdmitsWhatTheLinkConditionAllows) {
   for (const Mesh &mesh : meshes) {
     start_with(mesh);
     if (topology.nonmanifold_points > 0 || topology.nonmanifold_edges > 0) continue;
-    const SolidComplex solid(mesh.view(), boundary, host.job);
+    const SolidComplex solid(put_in_order(mesh.view(), boundary, host.job), host.job);
     std::vector<Simplex> maximal;
-    for (const Tet &t : mesh.tets) maximal.emplace_back(t.begin(), t.end());
-    for (const Triangle &t : boundary.triangles) maximal.push_back({t[0], t[1], t[2], cone});
-    for (std::int32_t a = 0; a < std::int32_t(mesh.points.size()); a++)
+    for (const Tet &t : solid.tets) maximal.emplace_back(t.begin(), t.end());
+    for (const Triangle &t : solid.triangles) maximal.push_back({t[0], t[1], t[2], cone});
+    for (std::int32_t a = 0; a < std::int32_t(solid.points.size()); a++)
       for (std::int32_t b : solid.neighbours.of(a)) {
         if (solid.rank(b) > solid.rank(a)) continue;
         SolidEdge edge;
