@@ -213,7 +213,7 @@ void check_same_cut_topology(const std::vector<Point> &before, const std::vector
 void check_deviation(const std::vector<Point> &before, const std::vector<Face> &original,
                      const std::vector<Point> &after, const std::vector<Face> &boundary, double bound) {
   const double diagonal = diagonal_of(before, original);
-  if (!(diagonal > 1e-90 && diagonal < 1e90)) return;  // squares of distances leave the range of doubles
+  if (!(diagonal > 1e-60 && diagonal < 1e60)) return;  // products of four lengths leave the range of doubles
   const double moved = farthest(before, original, after, boundary), made = farthest(after, boundary, before, original);
   DEMAND(std::max(moved, made) <= (bound + 1e-9) * diagonal, "max-deviation %.17g of %g: %g, %g are measured", bound,
          diagonal, moved, made);
