@@ -310,15 +310,17 @@ enum {
                                    TETLOD_ERR_MESH_NONFINITE, the default */
   TETLOD_OPT_TARGET_RATIO = 20, /* real, "target-ratio": tets kept, as a fraction of the original's sound ones. Then
                                    every step sees the field, as effort says, values are fitted to all original values,
-                                   vertices inside move and faces and edges flip where the field gains by it, and rho,
-                                   sigma, lambda and min-distance have no meaning; 0, the default: as published */
-  TETLOD_OPT_EFFORT = 21,       /* int, "effort": with a target ratio or a bound. TETLOD_EFFORT_FAST: the boundary is
-                                   decimated by quadrics that see the field, samples are taken where a linear field
-                                   would be wrong, and both are remeshed. TETLOD_EFFORT_ACCURATE, the default: edges of
-                                   the original collapse, inside and on the boundary, by quadrics of the values'
-                                   errors, and the smaller the mesh, the more passes follow, up to 12, that also remove
-                                   and insert vertices; remeshed is only what cannot be had so (a size beyond the
-                                   mesh's topology, tets that overlap), and where clean-edges is set */
+                                   in the passes vertices inside move and faces and edges flip where the field gains by
+                                   it, and rho, sigma, lambda and min-distance have no meaning; 0, the default: as
+                                   published */
+  TETLOD_OPT_EFFORT = 21,       /* int, "effort": with a target ratio or a bound. TETLOD_EFFORT_ACCURATE, the default:
+                                   edges of the original collapse, inside and on the boundary, by quadrics of the
+                                   values' errors, and the smaller the mesh, the more passes follow, up to 12, that also
+                                   remove and insert vertices; remeshed is only what cannot be had so (a size beyond the
+                                   mesh's topology, tets that overlap), and where clean-edges is set. TETLOD_EFFORT_FAST:
+                                   the same without the passes; and where the target ratio is below 0.05, the boundary
+                                   is decimated by quadrics that see the field, samples are taken where a linear field
+                                   would be wrong, both are remeshed, and one pass follows */
   TETLOD_OPT_MAX_ERROR = 22,    /* real, "max-error": bound of the error at every original vertex, as a fraction of the
                                    values' range, for every field that steers; one that lies outside the result is
                                    compared at the nearest point of its boundary. Begins with target-ratio (0: 0.05),

@@ -15,9 +15,11 @@ constexpr double first_ratio = 0.05;
 
 inline double ratio_of(const Options &options) { return options.target_ratio > 0 ? options.target_ratio : first_ratio; }
 
-/// A coarse mesh by collapsing edges is more accurate, one from samples is there sooner.
+/// A coarse mesh by collapsing edges is more accurate; one from samples is there sooner where little is kept, and takes
+/// as long where more is.
 inline bool collapses_edges(const Options &options) {
-  return options.effort == effort_accurate && options.clean_edges == 0;
+  constexpr double little = 0.05;
+  return options.clean_edges == 0 && (options.effort == effort_accurate || ratio_of(options) >= little);
 }
 
 /// Rounds of refine(), after the pass that every run with a target has. A small mesh is done soon, and has few vertices

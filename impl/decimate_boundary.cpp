@@ -137,7 +137,7 @@ class Decimator {
   void build_tree() {
     Array<Box> boxes(triangle_.size(), &job_.memory);
     for (auto f = mesh_.faces_sbegin(); f != mesh_.faces_end(); ++f) at(boxes, *f) = box_of(point_, at(triangle_, *f));
-    tree_.build(std::move(boxes), 4, [this] { job_.poll(0.5); });
+    tree_.build(std::move(boxes), 4, job_, 0.5);
     edges_in_tree_ = edges_;
   }
 

@@ -48,7 +48,7 @@ std::pair<std::int32_t, std::int32_t> find_crossing(const Surface &surface, Job 
   for (std::size_t t = 0; t < boxes.size(); t++)
     for (const Vec3 &p : corners(surface, std::int32_t(t))) boxes[t].add(p);
   KdTree tree(job.memory);
-  tree.build(Array<Box>(boxes, &job.memory), 4, [&] { job.poll(1); });
+  tree.build(Array<Box>(boxes, &job.memory), 4, job, 1);
   Array<std::int32_t> partner(boxes.size(), -1, &job.memory);
   job.parallel.for_blocks(boxes.size(), block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; t++)

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "job.hpp"
 #include "mesh.hpp"
 
 namespace tetlod {
@@ -28,21 +29,19 @@ class KdTree {
 
   /// Splits at the median of the boxes' centres along the longest extent, until at most `leaf` items are left. What has
   /// an empty box is in no answer.
-  void build(Array<Box> &&boxes, std::int64_t leaf) {
-    build(std::move(boxes), leaf, [] {});
-  }
-
-  /// The same; poll() is called every few thousand items of work.
-  template <class Poll>
-  void build(Array<Box> &&boxes, std::int64_t leaf, const Poll &poll) {
+  void build(Array<Box> &&boxes, std::int64_t leaf, Job &job, double fraction = 0) {
     boxes_ = std::move(boxes);
-    items_.clear();
-    items_.reserve(boxes_.size());
-    for (std::size_t i = 0; i < boxes_.size(); i++)
-      if (boxes_[i].low.x <= boxes_[i].high.x) items_.push_back(std::int32_t(i));
     leaf_of_.assign(boxes_.size(), -1);
+    leaf_ = std::int32_t(std::max<std::int64_t>(leaf, 1));
+    Array<Entry> entries(&job.memory);
+    entries.reserve(boxes_.size());
+    for (std::size_t i = 0; i < boxes_.size(); i++)
+      if (boxes_[i].low.x <= boxes_[i].high.x) entries.push_back({boxes_[i].low + boxes_[i].high, std::int32_t(i)});
+    items_.resize(entries.size());
     nodes_.clear();
-    if (!items_.empty()) split(0, std::int32_t(items_.size()), -1, std::int32_t(std::max<std::int64_t>(leaf, 1)), poll);
+    if (entries.empty()) return;
+    nodes_.resize(std::size_t(nodes_below(std::int32_t(entries.size())).first));
+    split({entries.data(), entries.size()}, 0, 0, -1, job, fraction);
   }
 
   bool empty() const { return nodes_.empty(); }
@@ -141,37 +140,56 @@ class KdTree {
     return box;
   }
 
-  template <class Poll>
-  std::int32_t split(std::int32_t begin, std::int32_t end, std::int32_t parent, std::int32_t leaf, const Poll &poll) {
-    if (end - begin > 1024) poll();
-    const std::int32_t self = std::int32_t(nodes_.size());
-    nodes_.push_back({Box(), begin, end, 0, parent});
-    nodes_[std::size_t(self)].box = box_below(self);
-    if (end - begin <= leaf) {
-      for (std::int32_t i = begin; i < end; i++) leaf_of_[std::size_t(items_[std::size_t(i)])] = self;
-      return self;
+  struct Entry {
+    Vec3 centre;  // twice
+    std::int32_t item;
+  };
+
+  /// Of the trees of so many items, and of one more.
+  std::pair<std::int32_t, std::int32_t> nodes_below(std::int32_t items) const {
+    if (items < leaf_) return {1, 1};
+    if (items == leaf_) return {1, 3};
+    const auto [half, more] = nodes_below(items / 2);
+    return items % 2 ? std::pair(1 + half + more, 1 + 2 * more) : std::pair(1 + 2 * half, 1 + half + more);
+  }
+
+  /// Those from `begin` on become the node `self`, and what is below it.
+  void split(Span<Entry> entries, std::int32_t begin, std::int32_t self, std::int32_t parent, Job &job,
+             double fraction) {
+    constexpr std::size_t few = 1024, many = 8192;
+    if (entries.size() > few) job.poll(fraction);
+    const auto size = std::int32_t(entries.size());
+    Node &node = nodes_[std::size_t(self)];
+    node = {Box(), begin, begin + size, 0, parent};
+    if (size <= leaf_) {
+      for (std::int32_t i = 0; i < size; i++) {
+        items_[std::size_t(begin + i)] = entries[std::size_t(i)].item;
+        leaf_of_[std::size_t(entries[std::size_t(i)].item)] = self;
+      }
+    } else {
+      const std::int32_t half = size / 2;
+      const int axis = longest_extent(entries);
+      std::nth_element(entries.begin(), entries.begin() + half, entries.end(), [axis](const Entry &a, const Entry &b) {
+        return a.centre[axis] != b.centre[axis] ? a.centre[axis] < b.centre[axis] : a.item < b.item;
+      });
+      node.right = self + 1 + nodes_below(half).first;
+      const auto split_half = [&](std::size_t right, std::size_t) {
+        if (right)
+          split({entries.data() + half, std::size_t(size - half)}, begin + half, node.right, self, job, fraction);
+        else
+          split({entries.data(), std::size_t(half)}, begin, self + 1, self, job, fraction);
+      };
+      if (entries.size() > many)
+        job.parallel.for_blocks(2, 1, split_half);
+      else
+        split_half(0, 1), split_half(1, 2);
     }
-    const std::int32_t middle = begin + (end - begin) / 2;
-    const int axis = longest_extent_of_centres(begin, end);
-    const auto less = [&](std::int32_t a, std::int32_t b) {
-      const double ca = centre(a)[axis], cb = centre(b)[axis];
-      return ca != cb ? ca < cb : a < b;
-    };
-    std::nth_element(items_.begin() + begin, items_.begin() + middle, items_.begin() + end, less);
-    split(begin, middle, self, leaf, poll);
-    const std::int32_t right = split(middle, end, self, leaf, poll);
-    nodes_[std::size_t(self)].right = right;
-    return self;
+    node.box = box_below(self);
   }
 
-  Vec3 centre(std::int32_t item) const {
-    const Box &box = boxes_[std::size_t(item)];
-    return box.low + box.high;
-  }
-
-  int longest_extent_of_centres(std::int32_t begin, std::int32_t end) const {
+  static int longest_extent(Span<Entry> entries) {
     Box box;
-    for (std::int32_t i = begin; i < end; i++) box.add(centre(items_[std::size_t(i)]));
+    for (const Entry &entry : entries) box.add(entry.centre);
     const Vec3 extent = box.high - box.low;
     return extent.x >= extent.y ? (extent.x >= extent.z ? 0 : 2) : (extent.y >= extent.z ? 1 : 2);
   }
@@ -180,6 +198,7 @@ class KdTree {
   Array<std::int32_t> items_;
   Array<Node> nodes_;
   Array<std::int32_t> leaf_of_;
+  std::int32_t leaf_ = 1;
 };
 
 }  // namespace tetlod

@@ -46,7 +46,7 @@ class PointTree {
     Array<Box> boxes(&job.memory);
     boxes.reserve(points.size());
     for (const Vec3 &p : points) boxes.push_back(box_at(p));
-    tree_.build(std::move(boxes), 8, [&] { job.poll(0); });
+    tree_.build(std::move(boxes), 8, job);
   }
 
   /// The hits of the tets from `first` on that have these boxes.

@@ -25,7 +25,7 @@ class Field {
       boxes[t].low -= margin;
       boxes[t].high += margin;
     }
-    tree_.build(std::move(boxes), 4, [&] { job.poll(0); });
+    tree_.build(std::move(boxes), 4, job);
   }
 
   bool value_at(const Vec3 &p, double &value) const {

@@ -53,8 +53,8 @@ class Pipeline {
     of.boundary_triangles = double(boundary_.triangles.size());
     if (as_published(options_)) {
       const double least = options_.min_distance * original_.box.diagonal();
-      const double samples =
-          double(selected_.size()) * share_away(original_.view.points, boundary_.triangles, selected_, least, job_);
+      const double share = share_away(original_.view.points, boundary_.triangles, selected_, least, job_);
+      const double samples = share * double(selected_.size());
       const double of_boundary = options_.sigma * of.boundary_triangles / 2;
       of.points = of_boundary + samples;
       of.tets = tets_a_boundary_point * of_boundary + tets_a_sample * samples;
@@ -68,8 +68,8 @@ class Pipeline {
     of.fields = double(original_.view.fields);
     of.tets = std::max(double(budget_.tets), tets_for_bound(original_.view, bound, job_));
     of.points = of.tets / tets_a_point;
-    of.probes =
-        double(expected_probes(original_.view, enough_probes(double(budget_.tets), rounds_of(options_, report_))));
+    const ProbeOptions enough = enough_probes(double(budget_.tets), rounds_of(options_, report_));
+    of.probes = double(expected_probes(original_.view, enough));
     return of;
   }
 
@@ -97,8 +97,9 @@ class Pipeline {
   /// Where the bound does not hold because the boundary is too coarse, one with more triangles follows.
   void run_to_target(Worker &worker) {
     for (double ratio = ratio_of(options_);; ratio *= 2) {
-      if (!collapses_edges(options_) || !collapse_edges()) remesh_to_target(worker);
-      if (refine() == 0) return;
+      const bool collapsed = collapses_edges(options_) && collapse_edges();
+      if (!collapsed) remesh_to_target(worker);
+      if (refine(!collapsed || options_.effort == effort_accurate) == 0) return;
       const double sigma = budget_.sigma;
       if (sigma >= 1) fail_bound();
       budget_ = budget_of(std::min(2 * ratio, 1.0), report_);
@@ -132,7 +133,8 @@ class Pipeline {
     report_.max_deviation = coarse.deviation / diagonal;
     describe_simplified_boundary(topology_, report_);
     report_.samples = report_.selected_samples = std::int64_t(mesh_.points.size()) - report_.boundary_points_out;
-    report_.samples_outside = report_.samples_too_near = report_.steiner_points = 0;  // a round before may have had some
+    report_.samples_outside = report_.samples_too_near = report_.steiner_points =
+        0;  // a round before may have had some
     return true;
   }
 
@@ -163,19 +165,16 @@ class Pipeline {
   }
 
   /// How many original vertices are beyond the bound.
-  std::int64_t refine() {
+  std::int64_t refine(bool follows_field) {
     const StageTimer timer(Stage::values, job_, report_);
-    const double range = original_.range;
+    const double range = original_.range, diagonal = original_.box.diagonal();
     const Array<std::uint8_t> kept = flags_of_result();
-    const RefineOptions options{budget_.tets,
-                                report_.steiner_points,
-                                rounds_of(options_, report_),
-                                options_.max_error * range,
-                                kept,
-                                boundary_.triangles,
-                                options_.max_deviation * original_.box.diagonal()};
+    const double bound = options_.max_error * range, deviation = options_.max_deviation * diagonal;
+    const int rounds = rounds_of(options_, report_);
+    const RefineOptions options{budget_.tets, report_.steiner_points, follows_field, rounds, bound,
+                                kept,         boundary_.triangles,    deviation};
     const RefineReport refined = tetlod::refine(original_.view, options, job_, mesh_);
-    report_.max_deviation = std::max(report_.max_deviation, refined.deviation / original_.box.diagonal());
+    report_.max_deviation = std::max(report_.max_deviation, refined.deviation / diagonal);
     report_.samples -= refined.removed_samples;
     report_.steiner_points -= refined.removed_steiner;
     report_.inserted_points = refined.inserted - refined.inserted_on_boundary;

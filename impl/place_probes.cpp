@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "kd_tree.hpp"
 #include "surface_distance.hpp"
@@ -96,15 +97,22 @@ double inner_scale(double tets, double most) {
   return std::min(more, most / (tets * (everywhere + by_change)));
 }
 
+/// Of the tets; 0 where, of the largest doubles, it is no number.
+template <std::size_t m>
+double mean_change(const MeshView &original, Job &job) {
+  constexpr std::size_t many = 16384;
+  Array<double> sums(original.tets.size() / many + 1, 0.0, &job.memory);
+  job.parallel.for_blocks(original.tets.size(), many, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; t++) sums[begin / many] += change_of<m>(original, original.tets[t]);
+    job.poll(0);
+  });
+  const double sum = std::accumulate(sums.begin(), sums.end(), 0.0);
+  return std::isfinite(sum) ? sum / double(original.tets.size()) : 0;
+}
+
 template <std::size_t m>
 void add_inner(const MeshView &original, double most, Job &job, Array<Probe<m>> &probes) {
-  double sum = 0;
-  for (std::size_t i = 0; i < original.tets.size(); i++) {
-    if (i % 16384 == 0) job.poll(0);
-    sum += change_of<m>(original, original.tets[i]);
-  }
-  const double count = double(original.tets.size());
-  const double mean = std::isfinite(sum) ? sum / count : 0;  // of the largest doubles it may not be a number
+  const double mean = mean_change<m>(original, job), count = double(original.tets.size());
   const double scale = inner_scale(count, most);
   EvenShares shares;
   for (std::size_t i = 0; i < original.tets.size(); i++) {
@@ -132,7 +140,7 @@ class Locator {
       boxes[t].low -= margin;
       boxes[t].high += margin;
     }
-    tree_.build(std::move(boxes), leaf, [&] { job.poll(0.1); });
+    tree_.build(std::move(boxes), leaf, job, 0.1);
   }
 
   /// The tet of p, searched from tet `hint` on, or, where that is -1, from anywhere; -1 outside.

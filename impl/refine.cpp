@@ -44,7 +44,7 @@ class Refinement {
   RefineReport run() {
     const ProbeOptions enough = projected(enough_probes(double(options_.tets), options_.rounds));
     place_probes(original_, enough, job_, mesh_);
-    follow_field();
+    if (options_.follows_field) follow_field();
     insert(options_.tets - std::int64_t(mesh_.count()));
     fit_values(last_fit_steps, job_, mesh_);
     if (enough.most_vertices < double(original_.points.size())) place_probes(original_, every_vertex(), job_, mesh_);

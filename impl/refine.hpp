@@ -8,6 +8,7 @@ namespace tetlod {
 struct RefineOptions {
   std::int64_t tets = 0;          ///< how many there shall be
   std::int64_t steiner = 0;       ///< how many of the points, the last ones, are Steiner points
+  bool follows_field = true;      ///< vertices move and faces flip; else values are fitted alone
   int rounds = 0;                 ///< that also remove and insert vertices, after one pass that moves and flips
   double bound = 0;               ///< of the error at every original vertex, absolute; 0: none
   Span<const std::uint8_t> kept;  ///< points that keep place and value, and the faces among them; empty: none

@@ -100,7 +100,7 @@ bool Solids::measure_shells(Job &job) {
 void Solids::find_crowded(Job &job) {
   Array<Box> boxes(shells_.size(), &job.memory);
   for (std::size_t s = 0; s < boxes.size(); s++) boxes[s] = shells_[s].box;
-  boxes_.build(std::move(boxes), 4, [&] { job.poll(0); });
+  boxes_.build(std::move(boxes), 4, job);
   for (std::size_t s = 0; s < shells_.size(); s++) {
     if (s % 4096 == 0) job.poll(0);
     shells_[s].crowded =
@@ -110,7 +110,7 @@ void Solids::find_crowded(Job &job) {
   for (std::size_t t = 0; t < boxes.size(); t++)
     if (shells_[std::size_t(shell_of(surface_.triangles[t]))].crowded)
       boxes[t] = box_of<3>(points_, surface_.triangles[t]);
-  triangles_.build(std::move(boxes), 8, [&] { job.poll(0); });
+  triangles_.build(std::move(boxes), 8, job);
 }
 
 /// A cavity belongs to the shell around it. False when a cavity is in none, or a solid in the material of another.

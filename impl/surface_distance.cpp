@@ -18,7 +18,7 @@ NearestTriangle::NearestTriangle(Span<const Vec3> points, Span<const Triangle> t
   Array<Box> boxes(triangles.size(), &job.memory);
   for (std::size_t t = 0; t < triangles.size(); t++)
     for (std::int32_t v : triangles[t]) boxes[t].add(points[std::size_t(v)]);
-  tree_.build(std::move(boxes), leaf, [&] { job.poll(0); });
+  tree_.build(std::move(boxes), leaf, job);
 }
 
 NearestPoint NearestTriangle::nearest(const Vec3 &p) const {

@@ -154,7 +154,8 @@ TEST_F(Reuse, FlagsAreAPartOfTheMesh) {
   EXPECT_EQ(expect_fresh_bytes().reused_tets, tets());
 }
 
-/// A cost that sees the field is another one for other values, and the same for other sizes.
+/// A cost that sees the field is another one for other values, and the same for other sizes. With so little kept,
+/// preset fast samples.
 TEST_F(Reuse, TargetsOfTheSameValues) {
   const auto target = [this](double ratio) {
     options.push_back([ratio](tetlod_context *of) {
@@ -162,9 +163,9 @@ TEST_F(Reuse, TargetsOfTheSameValues) {
       tetlod_set_int(of, TETLOD_OPT_EFFORT, TETLOD_EFFORT_FAST);
     });
   };
-  target(0.1);
+  target(0.02);
   expect_fresh_bytes();
-  for (double ratio : {0.2, 0.4}) {
+  for (double ratio : {0.03, 0.04}) {
     target(ratio);
     const tetlod_run_report report = expect_fresh_bytes();
     EXPECT_EQ(report.reused_tets, tets());
@@ -179,7 +180,10 @@ TEST_F(Reuse, TargetsOfTheSameValues) {
 TEST_F(Reuse, FieldsThatSteer) {
   const std::size_t points = cube.values.size();
   for (const std::int64_t preset : {TETLOD_PRESET_PAPER, TETLOD_PRESET_FAST, TETLOD_PRESET_ACCURATE}) {
-    options.push_back([preset](tetlod_context *of) { tetlod_set_preset(of, std::int32_t(preset)); });
+    options.push_back([preset](tetlod_context *of) {
+      tetlod_set_preset(of, std::int32_t(preset));
+      if (preset == TETLOD_PRESET_FAST) tetlod_set_real(of, TETLOD_OPT_TARGET_RATIO, 0.04);
+    });
     expect_fresh_bytes();
     for (double phase : {0.3, 0.9}) {
       second.clear();

@@ -138,8 +138,10 @@ std::vector<std::pair<std::int32_t, std::int32_t>> crossings(const Surface &surf
   for (std::size_t t = 0; t < boxes.size(); t++)
     for (const Vec3 &p : points_of(t)) boxes[t].add(p);
   const std::vector<Box> box_of(boxes.begin(), boxes.end());
+  const Parallel parallel;
+  Job job(memory, parallel);
   KdTree tree(memory);
-  tree.build(std::move(boxes), 8);
+  tree.build(std::move(boxes), 8, job);
   std::vector<std::pair<std::int32_t, std::int32_t>> found;
   for (std::size_t t = 0; t < box_of.size(); t++)
     tree.any_overlap(box_of[t], [&](std::int32_t other) {

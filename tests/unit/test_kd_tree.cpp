@@ -16,6 +16,8 @@ namespace {
 class KdTrees : public testing::TestWithParam<int> {
  protected:
   Memory memory;
+  Parallel parallel{2};
+  Job job{memory, parallel};
   std::mt19937_64 random{1};
   std::vector<Box> boxes;
 
@@ -33,7 +35,7 @@ class KdTrees : public testing::TestWithParam<int> {
   KdTree built() {
     KdTree tree(memory);
     Array<Box> copy(boxes.begin(), boxes.end(), &memory);
-    tree.build(std::move(copy), GetParam());
+    tree.build(std::move(copy), GetParam(), job);
     return tree;
   }
 

@@ -66,7 +66,7 @@ class OurTree {
     tetlod::Array<tetlod::Box> boxes(&stages_.memory);
     boxes.reserve(view_.points.size());
     for (const tetlod::Vec3 &p : view_.points) boxes.push_back({p, p});
-    tree_.build(std::move(boxes), kLeaf);
+    tree_.build(std::move(boxes), kLeaf, stages_.job);
     return watch.cost();
   }
 
