@@ -138,9 +138,9 @@ std::int64_t insert_vertices(std::int64_t tets, Job &job, AdaptiveMesh<m> &mesh)
     return x != y ? x > y : a < b;
   };
   std::sort(worst.begin(), worst.end(), PollingLess(job, 0.5, worse));
-  const auto goal = std::int64_t(mesh.count()) + tets;
+  const auto nearly = std::int64_t(mesh.count()) + tets - 1;  // each brings two or three
   std::int64_t inserted = 0;
-  for (std::size_t i = 0; i < worst.size() && std::int64_t(mesh.count()) < goal; i++) {
+  for (std::size_t i = 0; i < worst.size() && std::int64_t(mesh.count()) < nearly; i++) {
     if (i % 64 == 0) job.poll(0.5);
     const std::int32_t t = worst[i];
     if (!mesh.alive(t) || mesh.error[std::size_t(t)] <= 0) continue;
