@@ -251,7 +251,8 @@ typedef void (*tetlod_log_fn)(void *user, int32_t level, const char *message);
 /* fn NULL: no log (the default). Messages below min_level are not passed. */
 TETLOD_API tetlod_status tetlod_set_log(tetlod_context *context, tetlod_log_fn fn, void *user, int32_t min_level);
 
-/* stage: see tetlod_stage_name; fraction of that stage in [0, 1]. Non-zero cancels the run. */
+/* stage: see tetlod_stage_name; fraction of that stage in [0, 1], never less than at the call before, if that was in
+ * the same stage. Non-zero cancels the run. */
 typedef int32_t (*tetlod_progress_fn)(void *user, int32_t stage, double fraction);
 /* fn NULL: none (the default). Called every 5 to 50 ms during tetlod_run. */
 TETLOD_API tetlod_status tetlod_set_progress(tetlod_context *context, tetlod_progress_fn fn, void *user);

@@ -21,10 +21,11 @@ void Job::poll(double fraction) {
   if (seconds_left() <= 0)
     fail(Status::time_limit, "the time limit of %s seconds is used up", number(time_limit).c_str());
   if (!progress || std::this_thread::get_id() != owner_) return;
+  reached_ = std::max(reached_, std::clamp(fraction, 0.0, 1.0));
   const Clock::time_point now = Clock::now();
   if (now - last_call_ < progress_interval) return;
   last_call_ = now;
-  if (progress(stage_, std::clamp(fraction, 0.0, 1.0))) fail(Status::cancelled, "cancelled by the progress callback");
+  if (progress(stage_, reached_)) fail(Status::cancelled, "cancelled by the progress callback");
 }
 
 }  // namespace tetlod

@@ -31,13 +31,14 @@ class Job {
   double time_limit = 0;                      ///< seconds for the whole run, 0: none
 
   void enter(Stage stage) {
+    if (stage != stage_) reached_ = 0;
     stage_ = stage;
     last_call_ = {};
     poll(0);
   }
 
   /// Call it at least every few milliseconds of work, from any thread. Throws Status::cancelled or
-  /// Status::time_limit. `fraction` of the stage that is done, in [0, 1].
+  /// Status::time_limit. `fraction` of the stage that is done, in [0, 1]; the host is not told less than before.
   void poll(double fraction);
 
   /// Seconds until the time limit; a large number when there is none.
@@ -46,6 +47,7 @@ class Job {
  private:
   using Clock = std::chrono::steady_clock;
   Stage stage_ = Stage::prepare;
+  double reached_ = 0;
   std::thread::id owner_ = std::this_thread::get_id();
   Clock::time_point begin_ = Clock::now();
   Clock::time_point last_call_{};

@@ -150,10 +150,16 @@ TEST(Faults, MemoryLimits) {
 /// Cancels at the n-th call.
 struct Countdown {
   long left;
+  std::int32_t last_stage = -1;
+  double reached = 0;
   static std::int32_t call(void *user, std::int32_t stage, double fraction) {
+    Countdown &self = *static_cast<Countdown *>(user);
     EXPECT_STRNE(tetlod_stage_name(stage), "unknown");
-    EXPECT_TRUE(fraction >= 0 && fraction <= 1) << tetlod_stage_name(stage) << ' ' << fraction;
-    return static_cast<Countdown *>(user)->left-- == 0;
+    EXPECT_TRUE(fraction <= 1 && fraction >= (stage == self.last_stage ? self.reached : 0))
+        << tetlod_stage_name(stage) << ' ' << fraction;
+    self.last_stage = stage;
+    self.reached = fraction;
+    return self.left-- == 0;
   }
 };
 
@@ -178,6 +184,19 @@ TEST(Faults, CancelAtEveryProgressCall) {
     EXPECT_EQ(bytes_of(rerun.context.get()), undisturbed(rerun.second));
   }
   EXPECT_EQ(allocator.in_use(), 0u);
+}
+
+TEST(Faults, ProgressDoesNotGoBack) {
+  const Cube cube{20};
+  for (const std::int32_t preset : {TETLOD_PRESET_PAPER, TETLOD_PRESET_FAST, TETLOD_PRESET_ACCURATE}) {
+    const Context context = make_context();
+    tetlod_set_preset(context.get(), preset);
+    submit(context.get(), cube);
+    Countdown countdown{-1};
+    tetlod_set_progress(context.get(), Countdown::call, &countdown);
+    ASSERT_EQ(tetlod_run(context.get()), TETLOD_OK) << message_of(context.get());
+    EXPECT_LT(countdown.left, -5);
+  }
 }
 
 /// A second thread that cancels when a stage is reached, while the run waits for it to have done so.
