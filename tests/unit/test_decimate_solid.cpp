@@ -121,7 +121,7 @@ TEST_F(DecimateSolid, SolidsThatTouchKeepWhatTouches) {
 }
 
 TEST_F(DecimateSolid, SameBytesForAnyNumberOfThreads) {
-  Mesh mesh = kuhn_cube(21);  // large enough for blocks
+  Mesh mesh = kuhn_cube(20);  // large enough for blocks
   set_scalars(mesh, waves);
   start_with(mesh);
   CoarseSolid one(host.memory);
@@ -135,7 +135,7 @@ TEST_F(DecimateSolid, SameBytesForAnyNumberOfThreads) {
 }
 
 TEST_F(DecimateSolid, BlocksOfAPlateGetOn) {
-  Mesh mesh = kuhn_solid({120, 120, 1}, [](const Cell &) { return true; });
+  Mesh mesh = kuhn_solid({66, 66, 1}, [](const Cell &) { return true; });
   set_scalars(mesh, waves);
   start_with(mesh);
   CoarseSolid coarse(host.memory);
