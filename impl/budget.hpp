@@ -15,11 +15,11 @@ constexpr double first_ratio = 0.05;
 
 inline double ratio_of(const Options &options) { return options.target_ratio > 0 ? options.target_ratio : first_ratio; }
 
-/// A coarse mesh by collapsing edges is more accurate; one from samples is there sooner where little is kept, and takes
-/// as long where more is.
+/// A coarse mesh by collapsing edges is more accurate; one from samples is there sooner, where no more than about this
+/// part of the tets is kept.
 inline bool collapses_edges(const Options &options) {
-  constexpr double little = 0.05;
-  return options.clean_edges == 0 && (options.effort == effort_accurate || ratio_of(options) >= little);
+  constexpr double as_soon = 0.095;
+  return options.clean_edges == 0 && (options.effort == effort_accurate || ratio_of(options) >= as_soon);
 }
 
 /// Rounds of refine(), after the pass that every run with a target has. A small mesh is done soon, and has few vertices

@@ -18,7 +18,7 @@ class TargetedRun : public WholeRun {
   }
 };
 
-/// Which collapses edges where more than a twentieth is kept.
+/// Which collapses edges where a tenth is kept, or more.
 TEST_F(TargetedRun, MeetsItsSizeAndBeatsTheFasterWay) {
   Mesh original = kuhn_cube(16);
   set_scalars(original, [](const Vec3 &p) { return std::sin(7 * p.x) * std::cos(5 * p.y) * std::sin(4 * p.z); });
