@@ -161,7 +161,9 @@ void set_target(Session &session, Bytes &in) {
   };
   const std::size_t kind = in.below(5);
   if (kind == 2) set(TETLOD_OPT_MAX_DEVIATION, in.fraction() * std::pow(10.0, -double(in.below(4))), 0);
-  set(TETLOD_OPT_EFFORT, 0, in.one_in(3) ? TETLOD_EFFORT_FAST : TETLOD_EFFORT_ACCURATE);
+  const bool samples = in.one_in(3);  // small meshes are remeshed only where edges are to be cleaned
+  set(TETLOD_OPT_EFFORT, 0, samples ? TETLOD_EFFORT_FAST : TETLOD_EFFORT_ACCURATE);
+  set(TETLOD_OPT_CLEAN_EDGES, samples ? 1e-15 : 0, 0);
   set(TETLOD_OPT_TARGET_RATIO, kind == 0 ? 0 : in.fraction(), 0);
   set(TETLOD_OPT_MAX_ERROR, kind == 3 || kind == 4 ? in.fraction() * std::pow(10.0, -double(in.below(5))) : 0, 0);
 }

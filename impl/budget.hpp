@@ -15,17 +15,21 @@ constexpr double first_ratio = 0.05;
 
 inline double ratio_of(const Options &options) { return options.target_ratio > 0 ? options.target_ratio : first_ratio; }
 
-/// A coarse mesh by collapsing edges is more accurate; one from samples is there sooner, where no more than about this
-/// part of the tets is kept.
-inline bool collapses_edges(const Options &options) {
+/// With fewer tets, all that can be done is done soon.
+constexpr double small_mesh = 1e5;
+
+/// A coarse mesh by collapsing edges is more accurate; one from samples is there sooner, where the mesh is large and no
+/// more than about this part of the tets is kept.
+inline bool collapses_edges(const Options &options, const Report &report) {
   constexpr double as_soon = 0.095;
-  return options.clean_edges == 0 && (options.effort == effort_accurate || ratio_of(options) >= as_soon);
+  const bool samples = double(report.tets_in) >= small_mesh && ratio_of(options) < as_soon;
+  return options.clean_edges == 0 && (options.effort == effort_accurate || !samples);
 }
 
-/// Rounds of refine(), after the pass that every run with a target has. A small mesh is done soon, and has few vertices
-/// to go by: it gets more.
+/// Rounds of refine(), after the pass that every accurate run has. A small mesh has few vertices to go by, too: it gets
+/// more.
 inline int rounds_of(const Options &options, const Report &report) {
-  constexpr double most = 12, small_mesh = 1e5;
+  constexpr double most = 12;
   if (options.effort != effort_accurate) return 0;
   return int(std::min(small_mesh / double(report.tets_in), most));
 }

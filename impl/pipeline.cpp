@@ -60,7 +60,7 @@ class Pipeline {
       of.tets = tets_a_boundary_point * of_boundary + tets_a_sample * samples;
       return of;
     }
-    if (collapses_edges(options_)) {
+    if (collapses_edges(options_, report_)) {
       of.solid_tets = double(original_.view.tets.size());
       of.solid_points = double(original_.view.points.size());
     }
@@ -97,7 +97,7 @@ class Pipeline {
   /// Where the bound does not hold because the boundary is too coarse, one with more triangles follows.
   void run_to_target(Worker &worker) {
     for (double ratio = ratio_of(options_);; ratio *= 2) {
-      const bool collapsed = collapses_edges(options_) && collapse_edges();
+      const bool collapsed = collapses_edges(options_, report_) && collapse_edges();
       if (!collapsed) remesh_to_target(worker);
       if (refine(!collapsed || options_.effort == effort_accurate) == 0) return;
       const double sigma = budget_.sigma;

@@ -208,6 +208,10 @@ void fast(tetlod_context *context) {
   tetlod_set_preset(context, TETLOD_PRESET_FAST);
   tetlod_set_real(context, TETLOD_OPT_TARGET_RATIO, 0.4);
 }
+void sampled(tetlod_context *context) {
+  fast(context);
+  tetlod_set_real(context, TETLOD_OPT_CLEAN_EDGES, 1e-15);  // a small mesh is remeshed only so
+}
 void accurate(tetlod_context *context) {
   tetlod_set_preset(context, TETLOD_PRESET_ACCURATE);
   tetlod_set_real(context, TETLOD_OPT_TARGET_RATIO, 0.4);
@@ -215,8 +219,8 @@ void accurate(tetlod_context *context) {
 void bounded(tetlod_context *context) { tetlod_set_real(context, TETLOD_OPT_MAX_ERROR, 0.02); }
 
 INSTANTIATE_TEST_SUITE_P(Ways, Partitions,
-                         testing::Values(Way{"published", as_published}, Way{"fast", fast}, Way{"accurate", accurate},
-                                         Way{"bounded", bounded}));
+                         testing::Values(Way{"published", as_published}, Way{"fast", fast}, Way{"sampled", sampled},
+                                         Way{"accurate", accurate}, Way{"bounded", bounded}));
 
 }  // namespace
 }  // namespace tetlod_test

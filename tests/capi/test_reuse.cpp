@@ -154,18 +154,19 @@ TEST_F(Reuse, FlagsAreAPartOfTheMesh) {
   EXPECT_EQ(expect_fresh_bytes().reused_tets, tets());
 }
 
-/// A cost that sees the field is another one for other values, and the same for other sizes. With so little kept,
-/// preset fast samples.
+/// A cost that sees the field is another one for other values, and the same for other sizes. A small mesh is remeshed
+/// only where edges are to be cleaned.
 TEST_F(Reuse, TargetsOfTheSameValues) {
   const auto target = [this](double ratio) {
     options.push_back([ratio](tetlod_context *of) {
       tetlod_set_real(of, TETLOD_OPT_TARGET_RATIO, ratio);
       tetlod_set_int(of, TETLOD_OPT_EFFORT, TETLOD_EFFORT_FAST);
+      tetlod_set_real(of, TETLOD_OPT_CLEAN_EDGES, 1e-15);
     });
   };
-  target(0.02);
+  target(0.1);
   expect_fresh_bytes();
-  for (double ratio : {0.03, 0.04}) {
+  for (double ratio : {0.2, 0.4}) {
     target(ratio);
     const tetlod_run_report report = expect_fresh_bytes();
     EXPECT_EQ(report.reused_tets, tets());
@@ -182,7 +183,7 @@ TEST_F(Reuse, FieldsThatSteer) {
   for (const std::int64_t preset : {TETLOD_PRESET_PAPER, TETLOD_PRESET_FAST, TETLOD_PRESET_ACCURATE}) {
     options.push_back([preset](tetlod_context *of) {
       tetlod_set_preset(of, std::int32_t(preset));
-      if (preset == TETLOD_PRESET_FAST) tetlod_set_real(of, TETLOD_OPT_TARGET_RATIO, 0.04);
+      tetlod_set_real(of, TETLOD_OPT_CLEAN_EDGES, preset == TETLOD_PRESET_FAST ? 1e-15 : 0);
     });
     expect_fresh_bytes();
     for (double phase : {0.3, 0.9}) {
