@@ -28,7 +28,7 @@ constexpr double longest_step = 0.5;
 template <std::size_t m>
 struct SolidCollapse {
   explicit SolidCollapse(Memory &memory) : star(memory) {}
-  SolidEdge old;
+  SolidEdge edge;
   Vector<3 + m> place{};
   std::int32_t found_at = -1;  ///< the end whose cheapest edge it is
   bool of_boundary = false;
@@ -311,14 +311,14 @@ class SolidDecimator {
   bool is_admissible(std::int32_t v, const CheapestEdge &cheapest, SolidCollapse<m> &collapse) {
     const auto [stays, gone] = ends_of(v, cheapest.other);
     collapse.found_at = v;
-    if (!look_around(mesh_, stays, gone, collapse.old)) return false;
+    if (!look_around(mesh_, stays, gone, collapse.edge)) return false;
     collapse.of_boundary = mesh_.on_boundary(gone);
-    return find_place(cheapest.t, collapse) && !breaks_topology(mesh_, collapse.old);
+    return find_place(cheapest.t, collapse) && !breaks_topology(mesh_, collapse.edge);
   }
 
   /// The best place near the edge, or, where that is none, the best along it.
   bool find_place(double t, SolidCollapse<m> &collapse) {
-    const SolidEdge &edge = collapse.old;
+    const SolidEdge &edge = collapse.edge;
     const auto &stays = mesh_.vertex(edge.stays), &gone = mesh_.vertex(edge.gone);
     const Place d = minus(gone.place, stays.place), best = along(stays.place, t, d);
     StepConstraint constraint;
@@ -340,15 +340,15 @@ class SolidDecimator {
   bool suits(const Place &place, SolidCollapse<m> &collapse) {
     const Vec3 point = point_of(place);
     collapse.place = place;
-    if (flattens(mesh_, collapse.old, point)) return false;
+    if (flattens(mesh_, collapse.edge, point)) return false;
     if (!collapse.of_boundary) return true;
     Star &star = collapse.star;
-    return look_around_on_boundary(mesh_, collapse.old, point, star) && !turns_too_far(star) && !folds(star) &&
+    return look_around_on_boundary(mesh_, collapse.edge, point, star) && !turns_too_far(star) && !folds(star) &&
            !makes_sliver(star);
   }
 
   void make(const SolidCollapse<m> &collapse, Work &work, CollapseRoom &room) {
-    const std::int32_t v = collapse.old.stays;
+    const std::int32_t v = collapse.edge.stays;
     if (deviation_ && collapse.of_boundary) {
       if (deviation_->is_passed(collapse.star)) {
         find_cheapest_edge(collapse.found_at, cheapest(collapse.found_at).cost);
@@ -356,8 +356,8 @@ class SolidDecimator {
       }
       deviation_->move_on(collapse.star);
     }
-    mesh_.collapse(collapse.old, collapse.place, room);
-    work.gone += std::int64_t(collapse.old.edge_tets.size());
+    mesh_.collapse(collapse.edge, collapse.place, room);
+    work.gone += std::int64_t(collapse.edge.edge_tets.size());
     moved_[std::size_t(v)] = round_;
     work.changed.push_back(v);
     // What was not admissible around it may be so now.

@@ -10,9 +10,9 @@ namespace tetlod {
 /// For each item, find(item, change) says whether there is a change to make, from what the mesh is, and make(change)
 /// makes it. Change has `old`, the tets that it looked at. What an earlier change of its batch has touched is looked
 /// for again. ends: where each batch ends. Returns how many changes were made.
-template <class Change, class Mesh, class Find, class Make>
-std::int64_t sweep(Span<const std::int32_t> items, Span<const std::size_t> ends, Job &job, Mesh &mesh, const Find &find,
-                   const Make &make) {
+template <class Change, class Find, class Make>
+std::int64_t sweep(Span<const std::int32_t> items, Span<const std::size_t> ends, Job &job, TetComplex &mesh,
+                   const Find &find, const Make &make) {
   constexpr std::size_t grain = 8;
   std::size_t first = 0, largest = 0;
   for (const std::size_t end : ends) {
