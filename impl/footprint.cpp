@@ -80,8 +80,7 @@ double off_linear(const MeshView &mesh, Span<const std::int32_t> vertices) {
 std::size_t halve(const MeshView &mesh, Span<std::int32_t> vertices) {
   Box box;
   for (std::int32_t v : vertices) box.add(mesh.points[std::size_t(v)]);
-  const Vec3 extent = box.high - box.low;
-  const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+  const int axis = box.longest_axis();
   const std::size_t middle = vertices.size() / 2;
   std::nth_element(vertices.begin(), vertices.begin() + std::ptrdiff_t(middle), vertices.end(),
                    [&](std::int32_t a, std::int32_t b) {

@@ -168,7 +168,9 @@ class KdTree {
       }
     } else {
       const std::int32_t half = size / 2;
-      const int axis = longest_extent(entries);
+      Box centres;
+      for (const Entry &entry : entries) centres.add(entry.centre);
+      const int axis = centres.longest_axis();
       std::nth_element(entries.begin(), entries.begin() + half, entries.end(), [axis](const Entry &a, const Entry &b) {
         return a.centre[axis] != b.centre[axis] ? a.centre[axis] < b.centre[axis] : a.item < b.item;
       });
@@ -179,19 +181,14 @@ class KdTree {
         else
           split({entries.data(), std::size_t(half)}, begin, self + 1, self, job, fraction);
       };
-      if (entries.size() > many)
+      if (entries.size() > many) {
         job.parallel.for_blocks(2, 1, split_half);
-      else
-        split_half(0, 1), split_half(1, 2);
+      } else {
+        split_half(0, 1);
+        split_half(1, 2);
+      }
     }
     node.box = box_below(self);
-  }
-
-  static int longest_extent(Span<Entry> entries) {
-    Box box;
-    for (const Entry &entry : entries) box.add(entry.centre);
-    const Vec3 extent = box.high - box.low;
-    return extent.x >= extent.y ? (extent.x >= extent.z ? 0 : 2) : (extent.y >= extent.z ? 1 : 2);
   }
 
   Array<Box> boxes_;

@@ -92,6 +92,10 @@ struct Box {
     high = glm::max(high, other.high);
   }
   double diagonal() const { return glm::length(high - low); }
+  int longest_axis() const {
+    const Vec3 extent = high - low;
+    return extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+  }
 };
 
 /// Of a triangle or tet.

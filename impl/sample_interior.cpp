@@ -90,9 +90,8 @@ class SamplingTree {
   std::size_t split_at_median(const Cell &cell) const {
     Box box;
     for (std::size_t i = cell.begin; i < cell.end; i++) box.add(point(vertices_[i]));
-    const Vec3 extent = box.high - box.low;
-    const int axis = extent.x >= extent.y ? (extent.x >= extent.z ? 0 : 2) : (extent.y >= extent.z ? 1 : 2);
-    if (!(extent[axis] > 0)) return cell.begin;
+    const int axis = box.longest_axis();
+    if (!(box.high[axis] > box.low[axis])) return cell.begin;
     const auto first = vertices_.begin() + cell.begin, last = vertices_.begin() + cell.end;
     const auto less = [&](std::int32_t a, std::int32_t b) {
       return point(a)[axis] != point(b)[axis] ? point(a)[axis] < point(b)[axis] : a < b;

@@ -25,9 +25,7 @@ class Cuts {
  private:
   void cut(Span<Vec3> part, std::size_t i, double share) {
     if (i >= blocks_ || part.empty()) return;
-    const Box box = box_of(Span<const Vec3>(part.data(), part.size()));
-    const Vec3 size = box.high - box.low;
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const int axis = box_of(Span<const Vec3>(part.data(), part.size())).longest_axis();
     const auto first = std::size_t(share * double(part.size()));
     std::nth_element(part.begin(), part.begin() + first, part.end(),
                      [&](const Vec3 &a, const Vec3 &b) { return a[axis] < b[axis]; });

@@ -8,8 +8,6 @@ namespace {
 
 /// A tet with this part of the usual shape is flat.
 constexpr double flat_beside_usual = 0.01;
-/// Neighbours of a vertex, about.
-constexpr std::size_t usual_neighbours = 15;
 
 double volume6(const SolidComplex &mesh, const Tet &t) {
   return det(mesh.point(t[0]), mesh.point(t[1]), mesh.point(t[2]), mesh.point(t[3]));

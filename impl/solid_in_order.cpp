@@ -15,11 +15,9 @@ bool is_excluded(const Boundary &boundary, std::size_t t) { return !boundary.exc
 
 Array<std::int32_t> used_vertices(const MeshView &original, const Boundary &boundary, Job &job) {
   Array<std::uint8_t> used(original.points.size(), 0, &job.memory);
-  for (std::size_t t = 0; t < original.tets.size(); t++) {
-    if (t % poll_every == 0) job.poll(0);
-    if (is_excluded(boundary, t)) continue;
-    for (std::int32_t v : original.tets[t]) used[std::size_t(v)] = 1;
-  }
+  for (std::int32_t v : boundary.interior) used[std::size_t(v)] = 1;
+  for (const Triangle &t : boundary.triangles)
+    for (std::int32_t v : t) used[std::size_t(v)] = 1;
   Array<std::int32_t> vertices(&job.memory);
   for (std::size_t v = 0; v < used.size(); v++)
     if (used[v]) vertices.push_back(std::int32_t(v));
