@@ -1,5 +1,7 @@
 #include "fit_values.hpp"
 
+#include "cholesky.hpp"
+
 namespace tetlod {
 
 namespace {
@@ -7,62 +9,68 @@ namespace {
 constexpr double pull = 1e-3;  // of the mean diagonal
 constexpr std::size_t block = 256;
 constexpr std::size_t many = 1 << 15;  // tets between two polls of passes that do little with each
+/// Partial sums over tets are this many, so that they may be made at the same time.
+constexpr std::size_t parts = 8;
 
-/// What the probes of one tet add to the normal equations of its corners.
+/// Products of weights at the corners of a tet, summed over its probes: half of a symmetric matrix. Kept short, as every
+/// step reads all of them.
+using Products = std::array<float, 10>;
+
+/// What the probes of one tet say.
 template <std::size_t m>
-struct Normal {
-  double w[4][4]{};
-  double r[m][4]{};  ///< of each field, weights times residual, as it counts
+struct Evidence {
+  Products products{};
+  Values<m> r[4]{};  ///< weights times residuals, as they count
   ValueRange<m> range;
 };
 
 template <std::size_t m>
-Normal<m> normal_of(const AdaptiveMesh<m> &mesh, std::int32_t t) {
-  Normal<m> n;
+Evidence<m> evidence_of(const AdaptiveMesh<m> &mesh, std::int32_t t) {
+  Evidence<m> all;
   const TetFrame frame = mesh.frame(t);
+  Triangular<4> products{};
   mesh.for_probes(t, [&](std::int32_t p) {
     const Probe<m> &probe = mesh.probes[std::size_t(p)];
     double w[4];
     frame.weights(probe.point, w);
     const Values<m> r = mesh.weighted(mesh.residual(mesh.tets[std::size_t(t)], w, probe));
-    for (int i = 0; i < 4; i++)
-      for (int j = 0; j < 4; j++) n.w[i][j] += w[i] * w[j];
-    for (std::size_t k = 0; k < m; k++)
-      for (int i = 0; i < 4; i++) n.r[k][i] += w[i] * r[k];
-    n.range.add(probe.value);
+    for (std::size_t i = 0; i < 4; i++) {
+      for (std::size_t j = 0; j <= i; j++) products[entry_of(i, j)] += w[i] * w[j];
+      for (std::size_t k = 0; k < m; k++) all.r[i][k] += w[i] * r[k];
+    }
+    all.range.add(probe.value);
   });
-  return n;
+  std::transform(products.begin(), products.end(), all.products.begin(), [](double x) { return float(x); });
+  return all;
 }
 
 /// Of every field apart: they share the matrix, not the steps.
 template <std::size_t m>
 class Fit {
  public:
-  Fit(AdaptiveMesh<m> &mesh, Job &job) : mesh_(mesh), job_(job), normals_(&job.memory), pull_(pull) {
-    make_room();
-    job.parallel.for_blocks(normals_.size(), block, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t t = begin; t < end; t++)
-        if (mesh_.alive(std::int32_t(t))) normals_[t] = normal_of(mesh_, std::int32_t(t));
-      job.poll(0.5);
-    });
+  Fit(AdaptiveMesh<m> &mesh, Job &job)
+      : mesh_(mesh),
+        job_(job),
+        products_(&job.memory),
+        residual_(mesh.points.size(), Values<m>{}, &job.memory),
+        seen_(&job.memory),
+        partial_(&job.memory) {
+    products_.reserve(mesh.tets.size());
+    seen_.reserve(mesh.points.size());
+    for (const Values<m> &values : mesh.values) seen_.emplace_back(values);
+    gather();
     double sum = 0;
-    for (std::size_t t = 0; t < normals_.size(); t++) {
+    for (std::size_t t = 0; t < products_.size(); t++) {
       poll_at(t);
-      for (int i = 0; i < 4; i++) sum += normals_[t].w[i][i];
+      for (std::size_t i = 0; i < 4; i++) sum += double(products_[t][entry_of(i, i)]);
     }
     pull_ = pull * sum / double(mesh.points.size()) + 1e-300;
   }
 
   void solve(int steps) {
     const std::size_t count = mesh_.points.size();
-    Array<Values<m>> x(count, Values<m>{}, &job_.memory), r(count, Values<m>{}, &job_.memory), p(&job_.memory),
-        image(count, Values<m>{}, &job_.memory);
-    for (std::size_t t = 0; t < normals_.size(); t++) {
-      poll_at(t);
-      if (mesh_.alive(std::int32_t(t)))
-        for (std::size_t k = 0; k < m; k++)
-          for (std::size_t i = 0; i < 4; i++) r[std::size_t(mesh_.tets[t][i])][k] -= normals_[t].r[k][i];
-    }
+    Array<Values<m>> x(count, Values<m>{}, &job_.memory), p(&job_.memory), image(count, Values<m>{}, &job_.memory);
+    Array<Values<m>> &r = residual_;
     leave_kept(r);
     p.assign(r.begin(), r.end());
     Values<m> rr = dot(r, r);
@@ -105,12 +113,28 @@ class Fit {
     if (t % many == 0) job_.poll(0.5);
   }
 
-  /// Touching so much memory for the first time takes as long as filling it.
-  void make_room() {
-    normals_.reserve(mesh_.tets.size());
-    while (normals_.size() < mesh_.tets.size()) {
-      poll_at(0);
-      normals_.resize(std::min(normals_.size() + many, mesh_.tets.size()), Normal<m>());
+  /// The evidence of all tets, some at a time.
+  void gather() {
+    Array<Evidence<m>> some(&job_.memory);
+    for (std::size_t first = 0; first < mesh_.tets.size(); first += many) {
+      some.assign(std::min(many, mesh_.tets.size() - first), Evidence<m>());
+      job_.parallel.for_blocks(some.size(), block, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; i++)
+          if (const auto t = std::int32_t(first + i); mesh_.alive(t)) some[i] = evidence_of(mesh_, t);
+        job_.poll(0.5);
+      });
+      for (std::size_t i = 0; i < some.size(); i++) {
+        products_.push_back(some[i].products);
+        if (mesh_.alive(std::int32_t(first + i))) take_in(mesh_.tets[first + i], some[i]);
+      }
+    }
+  }
+
+  void take_in(const Tet &tet, const Evidence<m> &evidence) {
+    for (std::size_t i = 0; i < 4; i++) {
+      const auto v = std::size_t(tet[i]);
+      for (std::size_t k = 0; k < m; k++) residual_[v][k] -= evidence.r[i][k];
+      seen_[v].add(evidence.range);
     }
   }
 
@@ -121,21 +145,35 @@ class Fit {
     return sum;
   }
 
-  void apply(const Array<Values<m>> &x, Array<Values<m>> &image) const {
-    for (std::size_t i = 0; i < x.size(); i++)
-      for (std::size_t k = 0; k < m; k++) image[i][k] = pull_ * x[i][k];
-    for (std::size_t t = 0; t < normals_.size(); t++) {
-      poll_at(t);
-      if (!mesh_.alive(std::int32_t(t))) continue;
-      const Tet &tet = mesh_.tets[t];
-      for (std::size_t k = 0; k < m; k++)
-        for (std::size_t i = 0; i < 4; i++) {
-          double sum = 0;
-          for (std::size_t j = 0; j < 4; j++) sum += normals_[t].w[i][j] * x[std::size_t(tet[j])][k];
-          image[std::size_t(tet[i])][k] += sum;
-        }
-    }
+  void apply(const Array<Values<m>> &x, Array<Values<m>> &image) {
+    const std::size_t tets = products_.size(), count = x.size(), part = tets / parts + 1;
+    partial_.resize(parts * count);
+    job_.parallel.for_blocks(parts, 1, [&](std::size_t begin, std::size_t) {
+      Values<m> *const sums = partial_.data() + begin * count;
+      std::fill(sums, sums + count, Values<m>{});
+      for (std::size_t t = begin * part; t < std::min(tets, (begin + 1) * part); t++) {
+        poll_at(t);
+        if (mesh_.alive(std::int32_t(t))) add_image(products_[t], mesh_.tets[t], x, sums);
+      }
+    });
+    for (std::size_t i = 0; i < count; i++)
+      for (std::size_t k = 0; k < m; k++) {
+        image[i][k] = pull_ * x[i][k];
+        for (std::size_t b = 0; b < parts; b++) image[i][k] += partial_[b * count + i][k];
+      }
     leave_kept(image);
+  }
+
+  static void add_image(const Products &products, const Tet &tet, const Array<Values<m>> &x, Values<m> *image) {
+    double w[4][4];
+    for (std::size_t i = 0; i < 4; i++)
+      for (std::size_t j = 0; j <= i; j++) w[i][j] = w[j][i] = double(products[entry_of(i, j)]);
+    for (std::size_t k = 0; k < m; k++)
+      for (std::size_t i = 0; i < 4; i++) {
+        double sum = 0;
+        for (std::size_t j = 0; j < 4; j++) sum += w[i][j] * x[std::size_t(tet[j])][k];
+        image[std::size_t(tet[i])][k] += sum;
+      }
   }
 
   void leave_kept(Array<Values<m>> &of_vertices) const {
@@ -143,27 +181,22 @@ class Fit {
       if (mesh_.kept[v]) of_vertices[v] = {};
   }
 
-  /// Within what was seen around each vertex, itself included.
+  /// Within what was seen.
   void take(const Array<Values<m>> &change) {
-    Array<ValueRange<m>> seen(&job_.memory);
-    seen.reserve(change.size());
-    for (const Values<m> &values : mesh_.values) seen.emplace_back(values);
-    for (std::size_t t = 0; t < normals_.size(); t++) {
-      poll_at(t);
-      if (!mesh_.alive(std::int32_t(t))) continue;
-      for (std::int32_t v : mesh_.tets[t]) seen[std::size_t(v)].add(normals_[t].range);
-    }
     for (std::size_t v = 0; v < change.size(); v++) {
       Values<m> values = mesh_.values[v];
       for (std::size_t k = 0; k < m; k++) values[k] += change[v][k] / mesh_.scales.weighted[k];
-      mesh_.values[v] = seen[v].clamp(values);
+      mesh_.values[v] = seen_[v].clamp(values);
     }
   }
 
   AdaptiveMesh<m> &mesh_;
   Job &job_;
-  Array<Normal<m>> normals_;
-  double pull_;
+  Array<Products> products_;
+  Array<Values<m>> residual_;
+  Array<ValueRange<m>> seen_;  // around each vertex, itself included
+  Array<Values<m>> partial_;   // the image's parts, one after another
+  double pull_ = 0;
 };
 
 }  // namespace
