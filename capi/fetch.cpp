@@ -81,6 +81,7 @@ tetlod_run_report report_of(const Outcome &outcome) {
   to.reused_tets = from.reused_tets;
   to.reused_triangles = from.reused_triangles;
   to.reused_samples = from.reused_samples;
+  to.reused_collapses = from.reused_collapses;
   return to;
 }
 

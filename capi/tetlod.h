@@ -172,6 +172,7 @@ typedef struct tetlod_run_report {
                            were, else 0 */
   int64_t reused_triangles; /* boundary_triangles_out where its decimation was, else 0 */
   int64_t reused_samples;   /* samples known to be inside or outside, near or far */
+  int64_t reused_collapses; /* of the solid's edges (TETLOD_EFFORT_ACCURATE), done by a run, or a round, of another size */
 } tetlod_run_report;
 
 /* The field error of the last result, as the paper estimates it [4]. Errors are |result - original|, relative to the
@@ -419,7 +420,9 @@ TETLOD_API tetlod_status tetlod_estimate_memory(tetlod_context *context, uint64_
  *   and policies are the same and all values are finite;
  *   the boundary's decimation, if lambda, clean-edges and max-deviation are the same as well, as far as it went: a
  *   sigma that is not smaller. With a target ratio or a bound its cost sees the field: then only for the same
- *   values, and not at all with TETLOD_EFFORT_ACCURATE, where boundary and inside go together;
+ *   values;
+ *   where edges of the solid collapse (TETLOD_EFFORT_ACCURATE) and the values, their weights and the flags are the
+ *   same, without max-deviation: what other sizes have in common with this one, whichever came first;
  *   what culling found of each sample, if sigma, min-distance and boundary-leaf are also those of the last run.
  * The same means the same contents (by a fingerprint of 128 bits, taken anew in every run) in the same layout: arrays
  * may be changed in place, or submitted again. What is kept for that counts as memory of the context; a run that fails

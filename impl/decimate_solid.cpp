@@ -1,12 +1,13 @@
 #include "decimate_solid.hpp"
 
 #include <limits>
+#include <numeric>
 #include <optional>
 
 #include "deviation.hpp"
 #include "solid_blocks.hpp"
-#include "solid_mesh.hpp"
 #include "solid_rules.hpp"
+#include "solid_state.hpp"
 
 namespace tetlod {
 
@@ -18,8 +19,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double part_of_round = 0.33;
 /// Tets that a collapse takes away, about.
 constexpr double tets_a_collapse = 5.5;
-/// Where nothing is lost, short edges first: what the square of a length counts as.
-constexpr double shape_share = 1e-6;
 /// Of the volume, that the boundary may lose.
 constexpr double volume_to_lose = 0.01;
 /// A best place further off than this part of the edge is none.
@@ -38,51 +37,44 @@ struct SolidCollapse {
 template <std::size_t m>
 class SolidDecimator {
  public:
-  SolidDecimator(const MeshView &original, const Boundary &boundary, const Surface &surface,
-                 const SolidOptions &options, Job &job)
+  /// states: those that are kept; null: none are.
+  SolidDecimator(const MeshView &original, const Surface &surface, const SolidOptions &options,
+                 const FieldsAsLengths<m> &fields, SolidMesh<m> &&mesh, SolidProgress &&progress,
+                 Array<SolidState<m>> *states, Job &job)
       : original_(original),
-        range_(range_of(original)),
-        scales_(scales_of(original, box_of(surface.points).diagonal(), range_)),
+        fields_(fields),
+        target_(options.tets),
         job_(job),
-        mesh_(put_in_order(original, boundary, job), original.values<m>(), scales_, job),
+        mesh_(std::move(mesh)),
+        progress_(std::move(progress)),
+        states_(states),
         count_(std::int64_t(mesh_.tets.size())),
+        without_gaps_(count_),
         blocks_(mesh_.points.size(), job.memory),
         rooms_(&job.memory),
         works_(&job.memory),
-        cheapest_(mesh_.points.size(), CheapestEdge(), &job.memory),
-        moved_(mesh_.points.size(), -1, &job.memory),
-        left_(&job.memory),
-        changed_(&job.memory) {
-    for (std::size_t i = 0; i < mesh_.points.size(); i++) {
-      const auto v = std::int32_t(i);
-      const auto flagged = [&](Span<const std::uint8_t> flags) {
-        return !flags.empty() && flags[std::size_t(mesh_.origin[i])];
-      };
-      if (flagged(options.kept)) mesh_.ranks[i] = mesh_.on_boundary(v) ? Rank::kept_boundary : Rank::kept_inner;
-      if (flagged(options.touching)) mesh_.ranks[i] = Rank::touching;
-      left_.push_back(v);
-    }
+        left_(mesh_.points.size(), 0, &job.memory) {
+    std::iota(left_.begin(), left_.end(), 0);
     rooms_.reserve(SolidBlocks::most);
     works_.reserve(SolidBlocks::most);
     for (std::size_t b = 0; b < SolidBlocks::most; b++) {
       rooms_.emplace_back(job.memory);
       works_.emplace_back(job.memory);
     }
-    volume_of_collapse_ = volume_to_lose * mesh_.volume() / double(surface.points.size());
+    volume_of_collapse_ = volume_to_lose * mesh_.measures.volume / double(surface.points.size());
     if (options.max_deviation > 0) deviation_.emplace(surface, options.max_deviation, job);
   }
 
-  void run(std::int64_t target) {
-    const double surplus = double(count_ - target);
-    find_cheapest_edges(left_);
-    for (double limit; count_ > target && (limit = limit_of_round(target)) < infinity;) {
-      job_.poll(1 - double(count_ - target) / surplus);
-      collapse_some(limit, target);
+  void run() {
+    const double surplus = double(count_ - target_);
+    for (double limit; count_ > target_ && (limit = limit_of_round()) < infinity;) {
+      job_.poll(1 - double(count_ - target_) / surplus);
+      collapse_some(limit);
       mesh_.tidy({rooms_.data(), rooms_.size()});
       drop_gone(left_);
-      drop_gone(changed_);
-      round_++;
-      find_cheapest_edges(changed_);
+      drop_gone(progress_.changed);
+      progress_.round++;
+      if (states_ && 2 * count_ < without_gaps_ && count_ > target_) close_gaps();
     }
   }
 
@@ -112,13 +104,6 @@ class SolidDecimator {
   }
 
  private:
-  /// No admissible edge of the vertex costs less, as far as was known in that round.
-  struct CheapestEdge {
-    double cost = infinity, t = 0;
-    std::int32_t other = -1;
-    int round = -1;
-  };
-
   /// Rounds of a vertex none of whose edges is admissible, and of one that is looked at again after the round.
   static constexpr int stuck = -2, waiting = -3;
 
@@ -132,107 +117,71 @@ class SolidDecimator {
     std::int64_t most = 0, gone = 0;  ///< tets
   };
 
-  /// Of the values that tets have: other points' mean nothing.
-  static ValueRange<m> range_of(const MeshView &original) {
-    const Span<const Values<m>> values = original.values<m>();
-    ValueRange<m> range;
-    for (const Tet &t : original.tets)
-      for (std::int32_t v : t) range.add(values[std::size_t(v)]);
-    return range;
-  }
-
-  /// A field's range counts as the diagonal, where its weight is 1; the first may be constant.
-  static Values<m> scales_of(const MeshView &original, double diagonal, const ValueRange<m> &range) {
-    double half = 0;  // the whole may be more than a double holds
-    for (std::size_t i = 0; i < m && !(half > 0); i++)
-      half = original.scales.relative[i] * (0.5 * range.high[i] - 0.5 * range.low[i]);
-    const double scale = half > 0 ? 0.5 * diagonal / half : 1;
-    Values<m> scales;
-    for (std::size_t i = 0; i < m; i++) scales[i] = scale * original.scales.weighted[i];
-    return scales;
-  }
-
   Values<m> values_of(std::int32_t v) const {
     Values<m> values;
-    for (std::size_t i = 0; i < m; i++) values[i] = mesh_.vertex(v).place[3 + i] / scales_[i];
-    return range_.clamp(values);
+    for (std::size_t i = 0; i < m; i++) values[i] = mesh_.vertex(v).place[3 + i] / fields_.scales[i];
+    return fields_.range.clamp(values);
   }
 
-  CheapestEdge &cheapest(std::int32_t v) { return cheapest_[std::size_t(v)]; }
-  const CheapestEdge &cheapest(std::int32_t v) const { return cheapest_[std::size_t(v)]; }
+  CheapestEdge &cheapest(std::int32_t v) { return progress_.cheapest[std::size_t(v)]; }
+  const CheapestEdge &cheapest(std::int32_t v) const { return progress_.cheapest[std::size_t(v)]; }
 
   // ---- Costs
 
-  struct Ends {
-    std::int32_t stays, gone;
-  };
-  Ends ends_of(std::int32_t v, std::int32_t u) const { return mesh_.rank(v) < mesh_.rank(u) ? Ends{u, v} : Ends{v, u}; }
-  bool keeps_place(std::int32_t stays, std::int32_t gone) const { return mesh_.rank(stays) != mesh_.rank(gone); }
-  bool may_go(std::int32_t v) const { return mesh_.rank(v) == Rank::inner || mesh_.rank(v) == Rank::boundary; }
-
-  BestOfEdge cost(std::int32_t v, std::int32_t u) const {
-    const auto [stays, gone] = ends_of(v, u);
-    if (!may_go(gone) || mesh_.rank(stays) == Rank::touching) return {0, infinity};
-    const auto &a = mesh_.vertex(stays), &b = mesh_.vertex(gone);
-    const Place d = minus(b.place, a.place);
-    BestOfEdge best = best_of_edge(a.quadric, b.quadric, d, keeps_place(stays, gone));
-    constexpr std::size_t tets = entry_of(3, 3);
-    best.cost += shape_share * length2(point_of(d)) * (a.quadric.a[tets] + b.quadric.a[tets]);
-    return best;
-  }
-
   /// An edge is looked at from one end, the one that moved last.
   bool owns(std::int32_t v, std::int32_t u) const {
-    const int at = moved_[std::size_t(v)], other_at = moved_[std::size_t(u)];
+    const int at = progress_.moved[std::size_t(v)], other_at = progress_.moved[std::size_t(u)];
     return at != other_at ? at > other_at : v < u;
   }
 
   void find_cheapest_edge(std::int32_t v, double more_than) {
     CheapestEdge found;
-    found.round = round_;
+    found.round = progress_.round;
     for (std::int32_t u : mesh_.neighbours.of(v)) {
       if (!owns(v, u)) continue;
-      const BestOfEdge best = cost(v, u);
-      if (best.cost > more_than && best.cost < found.cost) found = {best.cost, best.t, u, round_};
+      const BestOfEdge best = mesh_.cost(v, u);
+      if (best.cost > more_than && best.cost < found.cost) found = {best.cost, best.t, u, progress_.round};
     }
     cheapest(v) = found;
   }
 
-  void find_cheapest_edges(Span<const std::int32_t> vertices) {
-    job_.parallel.for_blocks(vertices.size(), 64, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; i++) find_cheapest_edge(vertices[i], -infinity);
+  void find_cheapest_edges() {
+    const Array<std::int32_t> &changed = progress_.changed;
+    job_.parallel.for_blocks(changed.size(), 64, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; i++) find_cheapest_edge(changed[i], -infinity);
       job_.poll(0);
     });
   }
 
   /// Its other end may have moved or gone since.
   bool is_known(const CheapestEdge &edge) const {
-    return edge.other >= 0 && mesh_.has_vertex(edge.other) && moved_[std::size_t(edge.other)] < edge.round;
+    return edge.other >= 0 && mesh_.has_vertex(edge.other) && progress_.moved[std::size_t(edge.other)] < edge.round;
   }
 
   // ---- Rounds
 
   /// What an edge of the round may cost. Towards the end rounds get smaller, so that the last collapses are the
   /// cheapest.
-  double limit_of_round(std::int64_t target) const {
+  double limit_of_round() {
+    find_cheapest_edges();
     Array<double> costs(&job_.memory);
     for (std::int32_t v : left_)
       if (cheapest(v).cost < infinity) costs.push_back(cheapest(v).cost);
     if (costs.empty()) return infinity;
-    const double needed = 1 + double(count_ - target) / tets_a_collapse;
-    const double wanted = std::min(part_of_round * double(left_.size()), needed);
-    const auto last = costs.begin() + std::ptrdiff_t(std::min(std::size_t(wanted), costs.size() - 1));
+    const double most = part_of_round * double(left_.size()), needed = 1 + double(count_ - target_) / tets_a_collapse;
+    progress_.allow(double(count_) - most * tets_a_collapse);
+    const auto last = costs.begin() + std::ptrdiff_t(std::min(std::size_t(std::min(most, needed)), costs.size() - 1));
     std::nth_element(costs.begin(), last, costs.end());
     return *last;
   }
 
-  void collapse_some(double limit, std::int64_t target) {
+  void collapse_some(double limit) {
     Array<std::int32_t> items(&job_.memory);
     for (std::int32_t v : left_)
       if (cheapest(v).cost <= limit) items.push_back(v);
-    blocks_.cut(mesh_, left_, round_, most_blocks(items.size()), job_);
+    blocks_.cut(mesh_, left_, progress_.round, most_blocks(items.size()), job_);
     for (std::int32_t v : items) works_[blocks_.of(v)].items.push_back(v);
-    const double share = double(count_ - target) / double(items.size());
+    const double share = double(count_ - target_) / double(items.size());
     job_.parallel.for_blocks(blocks_.count(), 1, [&](std::size_t b, std::size_t) {
       Work &work = works_[b];
       work.most = std::int64_t(std::ceil(share * double(work.items.size())));
@@ -244,7 +193,7 @@ class SolidDecimator {
   /// Few are soon done; what bounds the deviation is one for all; and where most wait, one block gets on.
   std::size_t most_blocks(std::size_t items) const {
     constexpr std::size_t few = 256;
-    return items < few || deviation_ || most_waited_ ? 1 : SolidBlocks::most;
+    return items < few || deviation_ || progress_.most_waited ? 1 : SolidBlocks::most;
   }
 
   void collapse_in_block(double limit, Work &work, CollapseRoom &room) {
@@ -255,15 +204,19 @@ class SolidDecimator {
   }
 
   void take_over(std::size_t items) {
-    changed_.clear();
+    Array<std::int32_t> &changed = progress_.changed;
+    changed.clear();
+    const std::int64_t before = count_;
     for (Work &work : works_) {
+      if (!work.items.empty())  // with fewer tets to lose, the block would have stopped before
+        progress_.allow(double(before) - double(work.gone + 1) * double(items) / double(work.items.size()));
       count_ -= work.gone;
-      changed_.insert(changed_.end(), work.changed.begin(), work.changed.end());
+      changed.insert(changed.end(), work.changed.begin(), work.changed.end());
       work.items.clear();
       work.changed.clear();
       work.gone = 0;
     }
-    most_waited_ = blocks_.count() > 1 && changed_.size() * 8 < items;
+    progress_.most_waited = blocks_.count() > 1 && changed.size() * 8 < items;
   }
 
   void drop_gone(Array<std::int32_t> &vertices) const {
@@ -271,11 +224,33 @@ class SolidDecimator {
     vertices.erase(std::remove_if(vertices.begin(), vertices.end(), is_gone), vertices.end());
   }
 
+  // ---- States
+
+  /// What is left moves together, when that is half.
+  void close_gaps() {
+    progress_.close_gaps(left_, job_.memory);
+    SolidRemains<m> remains = mesh_.take_remains(left_, job_);
+    for (CollapseRoom &room : rooms_) room.clear();
+    keep_state(remains);
+    mesh_ = SolidMesh<m>(std::move(remains), job_);
+    std::iota(left_.begin(), left_.end(), 0);
+    blocks_ = SolidBlocks(left_.size(), job_.memory);
+    without_gaps_ = count_;
+  }
+
+  /// Unless it is of this target alone, kept already, or would take memory that the run does not need without it.
+  void keep_state(const SolidRemains<m> &remains) {
+    const bool is_kept = !states_->empty() && states_->back().remains.tets.size() <= remains.tets.size();
+    if (is_kept || progress_.largest_target < target_) return;
+    if (job_.memory.in_use() + remains.bytes() + progress_.bytes() > job_.memory.peak()) return;
+    states_->push_back({SolidRemains<m>(remains, job_.memory), SolidProgress(progress_, job_.memory)});
+  }
+
   // ---- A collapse
 
   /// The cheapest admissible one of an edge of v within the limit. A vertex moves once a round.
   bool find(std::int32_t v, double limit, SolidCollapse<m> &collapse) {
-    if (!mesh_.has_vertex(v) || moved_[std::size_t(v)] == round_ || waits(v)) return false;
+    if (!mesh_.has_vertex(v) || progress_.moved[std::size_t(v)] == progress_.round || waits(v)) return false;
     if (!is_known(cheapest(v))) find_cheapest_edge(v, -infinity);
     if (!(cheapest(v).cost <= limit) || waits(cheapest(v).other)) return false;
     return is_admissible(v, cheapest(v), collapse) || find_dearer(v, limit, collapse);
@@ -291,9 +266,9 @@ class SolidDecimator {
     later.round = stuck;
     for (std::int32_t u : mesh_.neighbours.of(v)) {
       if (!owns(v, u)) continue;
-      const BestOfEdge best = cost(v, u);
-      if (best.cost > tried && best.cost <= limit) dearer.push({best.cost, best.t, u, round_});
-      if (best.cost > limit && best.cost < later.cost) later = {best.cost, best.t, u, round_};
+      const BestOfEdge best = mesh_.cost(v, u);
+      if (best.cost > tried && best.cost <= limit) dearer.push({best.cost, best.t, u, progress_.round});
+      if (best.cost > limit && best.cost < later.cost) later = {best.cost, best.t, u, progress_.round};
     }
     const auto is_cheaper = [](const CheapestEdge &a, const CheapestEdge &b) {
       return a.cost != b.cost ? a.cost < b.cost : a.other < b.other;
@@ -309,7 +284,7 @@ class SolidDecimator {
   }
 
   bool is_admissible(std::int32_t v, const CheapestEdge &cheapest, SolidCollapse<m> &collapse) {
-    const auto [stays, gone] = ends_of(v, cheapest.other);
+    const auto [stays, gone] = mesh_.ends_of(v, cheapest.other);
     collapse.found_at = v;
     if (!look_around(mesh_, stays, gone, collapse.edge)) return false;
     collapse.of_boundary = mesh_.on_boundary(gone);
@@ -323,7 +298,7 @@ class SolidDecimator {
     const Place d = minus(gone.place, stays.place), best = along(stays.place, t, d);
     StepConstraint constraint;
     if (collapse.of_boundary) constraint = keeping_volume(mesh_, edge, point_of(best));
-    if (!keeps_place(edge.stays, edge.gone)) {
+    if (!mesh_.keeps_place(edge.stays, edge.gone)) {
       LocalQuadric<3 + m> sum = stays.quadric.moved(minus(best, stays.place));
       sum.add(gone.quadric.moved(minus(best, gone.place)));
       Place step;
@@ -358,7 +333,7 @@ class SolidDecimator {
     }
     mesh_.collapse(collapse.edge, collapse.place, room);
     work.gone += std::int64_t(collapse.edge.edge_tets.size());
-    moved_[std::size_t(v)] = round_;
+    progress_.moved[std::size_t(v)] = progress_.round;
     work.changed.push_back(v);
     // What was not admissible around it may be so now.
     for (std::int32_t u : mesh_.neighbours.of(v))
@@ -369,31 +344,55 @@ class SolidDecimator {
   }
 
   const MeshView &original_;
-  ValueRange<m> range_;
-  Values<m> scales_;  // length that a unit of each field counts as
+  const FieldsAsLengths<m> &fields_;
+  std::int64_t target_;
   Job &job_;
   SolidMesh<m> mesh_;
-  std::int64_t count_;  // of the tets that are left
+  SolidProgress progress_;
+  Array<SolidState<m>> *states_;
+  std::int64_t count_, without_gaps_;  // tets that are left, and were when gaps were closed
   SolidBlocks blocks_;
   Array<CollapseRoom> rooms_;  // of each block
   Array<Work> works_;
-  bool most_waited_ = false;
   std::optional<DeviationLimit> deviation_;
   double volume_of_collapse_ = 0;
-  int round_ = 0;
-  Array<CheapestEdge> cheapest_;
-  Array<int> moved_;  // the round in which each vertex moved last
-  Array<std::int32_t> left_, changed_;
+  Array<std::int32_t> left_;
 };
+
+template <std::size_t m>
+SolidMesh<m> begin_with(const MeshView &original, const Boundary &boundary, const SolidOptions &options,
+                        const Values<m> &scales, Job &job) {
+  SolidMesh<m> mesh(put_in_order(original, boundary, job), original.values<m>(), scales, job);
+  for (std::size_t i = 0; i < mesh.points.size(); i++) {
+    const auto flagged = [&](Span<const std::uint8_t> flags) {
+      return !flags.empty() && flags[std::size_t(mesh.origin[i])];
+    };
+    if (flagged(options.kept))
+      mesh.ranks[i] = mesh.on_boundary(std::int32_t(i)) ? Rank::kept_boundary : Rank::kept_inner;
+    if (flagged(options.touching)) mesh.ranks[i] = Rank::touching;
+  }
+  return mesh;
+}
 
 }  // namespace
 
-void decimate_solid(const MeshView &original, const Boundary &boundary, const Surface &surface,
-                    const SolidOptions &options, Job &job, TetMesh &mesh, Array<std::int32_t> &origin) {
-  with_fields(original.fields, [&](auto m) {
-    SolidDecimator<m> decimator(original, boundary, surface, options, job);
-    decimator.run(options.tets);
+std::int64_t decimate_solid(const MeshView &original, const Boundary &boundary, const Surface &surface,
+                            const SolidOptions &options, SolidHistory &history, Job &job, TetMesh &mesh,
+                            Array<std::int32_t> &origin) {
+  return with_fields(original.fields, [&](auto m) {
+    const FieldsAsLengths<m> fields(original, box_of(surface.points).diagonal());
+    const bool keeps_states = options.max_deviation <= 0;
+    const SolidState<m> *const state = keeps_states ? history.before<m>(options.tets, job.memory) : nullptr;
+    SolidMesh<m> solid = state ? SolidMesh<m>(SolidRemains<m>(state->remains, job.memory), job)
+                               : begin_with<m>(original, boundary, options, fields.scales, job);
+    SolidProgress progress =
+        state ? SolidProgress(state->progress, job.memory) : SolidProgress(solid.points.size(), job.memory);
+    const std::size_t known = solid.points.size();
+    SolidDecimator<m> decimator(original, surface, options, fields, std::move(solid), std::move(progress),
+                                keeps_states ? &history.states<m>(job.memory) : nullptr, job);
+    decimator.run();
     decimator.write(mesh, origin);
+    return state ? std::int64_t(boundary.interior.size() + surface.points.size() - known) : 0;
   });
 }
 

@@ -13,6 +13,7 @@ struct CoarseSolid {
   Array<std::int32_t> origin;  ///< the original vertex that each point still is, or -1
   Surface surface;             ///< the boundary with points of its own
   SurfaceTopology topology;    ///< of that
+  std::int64_t reused = 0;     ///< collapses that decimate_solid's history saved
   double deviation = 0;        ///< between the boundaries, at the vertices of both
 };
 
@@ -20,7 +21,7 @@ struct CoarseSolid {
 /// Returns what is wrong with the outcome, or an empty text: the size is missed by more than 1 %, a tet is not
 /// positive, tets overlap, or the boundary crosses itself.
 std::string decimate_solid_and_check(const MeshView &original, const Boundary &boundary, const Surface &surface,
-                                     const SurfaceTopology &topology, SolidOptions options, Job &job,
-                                     CoarseSolid &coarse);
+                                     const SurfaceTopology &topology, SolidOptions options,
+                                     SolidHistory &history, Job &job, CoarseSolid &coarse);
 
 }  // namespace tetlod

@@ -102,8 +102,9 @@ struct Report {
   double scalar_min = 0, scalar_max = 0;
   double max_deviation = 0;  ///< between the boundaries, at the vertices of both, over the diagonal
   double max_error = 0;      ///< of a run with a target: at the original vertices, over the range, of any field
-  /// Taken over from earlier work: tets_in or 0, boundary_triangles_out or 0, and samples whose place was known.
-  std::int64_t reused_tets = 0, reused_triangles = 0, reused_samples = 0;
+  /// Taken over from earlier work: tets_in or 0, boundary_triangles_out or 0, samples whose place was known, and
+  /// collapses of edges of the solid.
+  std::int64_t reused_tets = 0, reused_triangles = 0, reused_samples = 0, reused_collapses = 0;
 };
 
 /// A field of the result: a tuple a point or a tet.

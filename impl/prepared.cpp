@@ -125,6 +125,11 @@ Prepared::Decimated Prepared::decimate(const DecimateOptions &options, std::int3
   return {report.cleaned_edges, report.deviation, reused};
 }
 
+SolidHistory &Prepared::history(Job &job) {
+  history_.begin(original.view, job.memory);
+  return history_;
+}
+
 Span<std::uint8_t> Prepared::verdicts(double least_distance, std::int64_t leaf, Memory &memory) {
   if (verdicts_way_ != last_ || verdicts_distance_ != least_distance || verdicts_leaf_ != leaf) {
     verdicts_ = Array<std::uint8_t>(original.view.points.size(), 0, &memory);

@@ -3,7 +3,8 @@
 //   values
 //                                           are finite
 //   the decimation                          that, lambda, clean-edges, max-deviation, and the field if its cost sees it
-//   verdicts                                that, how far the decimation went, min-distance, boundary-leaf
+//   the history of collapses                the original, its values and how they count
+//   verdicts                                the decimation, how far the decimation went, min-distance, boundary-leaf
 // What it depends on is compared by fingerprints, so that arrays may be changed in place, or submitted anew unchanged.
 // Whatever is taken over has the bytes that a run without it would make.
 #pragma once
@@ -14,6 +15,7 @@
 #include "fingerprint.hpp"
 #include "pipeline.hpp"
 #include "prepare.hpp"
+#include "solid_state.hpp"
 #include "surface_topology.hpp"
 
 namespace tetlod {
@@ -27,6 +29,7 @@ class Prepared {
         topology_(memory),
         careless_(memory),
         careful_(memory),
+        history_(memory),
         verdicts_(&memory) {}
 
   Original original;
@@ -53,6 +56,9 @@ class Prepared {
   /// surface(), decimated, which crosses itself nowhere. Throws Status::mesh_intersecting, with vertices numbered from
   /// index_base.
   Decimated decimate(const DecimateOptions &options, std::int32_t index_base, Job &job, Surface &out);
+
+  /// Of the original while its edges collapsed, with the values that it has now.
+  SolidHistory &history(Job &job);
 
   /// Of each original vertex, what culling with these found of it at the last decimated surface.
   Span<std::uint8_t> verdicts(double least_distance, std::int64_t leaf, Memory &memory);
@@ -87,6 +93,7 @@ class Prepared {
   Surface surface_;
   SurfaceTopology topology_;
   Logged careless_, careful_;
+  SolidHistory history_;
   Way last_;
   Array<std::uint8_t> verdicts_;
   double verdicts_distance_ = 0;

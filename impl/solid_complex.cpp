@@ -16,18 +16,25 @@ double volume6(const SolidComplex &mesh, const Tet &t) {
 }  // namespace
 
 SolidComplex::SolidComplex(SolidInOrder &&solid, Job &job)
-    : points(std::move(solid.points)),
-      ranks(points.size(), Rank::inner, &job.memory),
-      tets(std::move(solid.tets)),
-      triangles(std::move(solid.triangles)),
-      tets_of(Span<const Tet>(tets), points.size(), job),
-      triangles_of(Span<const Triangle>(triangles), points.size(), job),
-      neighbours(points.size(), job) {
+    : SolidComplex(std::move(solid.points), Array<Rank>(solid.points.size(), Rank::inner, &job.memory),
+                   std::move(solid.tets), std::move(solid.triangles), {}, job) {
   for (const Triangle &t : triangles)
     for (std::int32_t v : t) ranks[std::size_t(v)] = Rank::boundary;
-  find_neighbours(job);
   const double flat = flat_beside_usual * flat_beside_usual * usual_shape2(job.memory);
-  least_shape2 = std::min(least_shape * least_shape, flat);
+  measures = {std::min(least_shape * least_shape, flat), volume()};
+}
+
+SolidComplex::SolidComplex(Array<Vec3> &&points_of, Array<Rank> &&ranks_of, Array<Tet> &&tets_of_it,
+                           Array<Triangle> &&triangles_of_it, const SolidMeasures &of_original, Job &job)
+    : points(std::move(points_of)),
+      ranks(std::move(ranks_of)),
+      tets(std::move(tets_of_it)),
+      triangles(std::move(triangles_of_it)),
+      tets_of(Span<const Tet>(tets), points.size(), job),
+      triangles_of(Span<const Triangle>(triangles), points.size(), job),
+      neighbours(points.size(), job),
+      measures(of_original) {
+  find_neighbours(job);
 }
 
 /// The median of some thousand tets'. Of a squeezed mesh all are flat.

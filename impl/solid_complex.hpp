@@ -15,6 +15,22 @@ enum class Rank : std::uint8_t {
   touching  ///< on the boundary, where the solid touches itself: none of its edges collapses
 };
 
+/// Those of the vertices `left`, which get the numbers from 0 on.
+template <class T>
+void keep_alone(Span<const std::int32_t> left, Array<T> &of_vertices) {
+  Array<T> kept(of_vertices.get_allocator());
+  kept.reserve(left.size());
+  for (std::int32_t v : left) kept.push_back(of_vertices[std::size_t(v)]);
+  of_vertices = std::move(kept);
+}
+
+/// The new number of each vertex; -1: it is not left.
+inline Array<std::int32_t> numbers_of(Span<const std::int32_t> left, std::size_t vertices, Memory &memory) {
+  Array<std::int32_t> numbers(vertices, -1, &memory);
+  for (std::size_t i = 0; i < left.size(); i++) numbers[std::size_t(left[i])] = std::int32_t(i);
+  return numbers;
+}
+
 /// An edge with the tets around it, those at the edge apart.
 struct SolidEdge {
   std::int32_t stays, gone;
@@ -27,6 +43,16 @@ struct CollapseRoom {
   explicit CollapseRoom(Memory &memory) : tets(memory), triangles(memory), neighbours(memory), list(&memory) {}
   ListRoom tets, triangles, neighbours;
   Array<std::int32_t> list;
+
+  void clear() {
+    for (ListRoom *room : {&tets, &triangles, &neighbours}) room->clear();
+  }
+};
+
+/// Of the original.
+struct SolidMeasures {
+  double least_shape2 = 0;  ///< square of the shape of a tet, below which it is flat
+  double volume = 0;
 };
 
 /// How the solid hangs together.
@@ -34,6 +60,9 @@ class SolidComplex {
  public:
   /// Takes all but `origin`.
   SolidComplex(SolidInOrder &&solid, Job &job);
+  /// The lists are made from what is given.
+  SolidComplex(Array<Vec3> &&points, Array<Rank> &&ranks, Array<Tet> &&tets, Array<Triangle> &&triangles,
+               const SolidMeasures &measures, Job &job);
 
   Array<Vec3> points;
   Array<Rank> ranks;
@@ -41,17 +70,22 @@ class SolidComplex {
   Array<Triangle> triangles;        ///< the boundary, outward; likewise
   StarLists tets_of, triangles_of;  ///< some of them may be gone
   StarLists neighbours;             ///< of each vertex
-  double least_shape2;              ///< square of the shape of a tet, below which it is flat
+  SolidMeasures measures;
 
   const Vec3 &point(std::int32_t v) const { return points[std::size_t(v)]; }
   Rank rank(std::int32_t v) const { return ranks[std::size_t(v)]; }
   bool on_boundary(std::int32_t v) const { return rank(v) >= Rank::boundary; }
+  bool may_go(std::int32_t v) const { return rank(v) == Rank::inner || rank(v) == Rank::boundary; }
+  struct Ends {
+    std::int32_t stays, gone;
+  };
+  Ends ends_of(std::int32_t v, std::int32_t u) const { return rank(v) < rank(u) ? Ends{u, v} : Ends{v, u}; }
+  bool keeps_place(std::int32_t stays, std::int32_t gone) const { return rank(stays) != rank(gone); }
   bool has_vertex(std::int32_t v) const { return !tets_of.of(v).empty(); }
   bool has_tet(std::int32_t t) const { return tets[std::size_t(t)][0] >= 0; }
   bool has_triangle(std::int32_t t) const { return triangles[std::size_t(t)][0] >= 0; }
   /// Twice the area vector.
   Vec3 normal(std::int32_t triangle) const;
-  double volume() const;  ///< before any collapse
 
   /// The end that goes becomes the one that stays, which comes to be at `point`. Writes to the two ends, their tets
   /// and their neighbours' lists alone.
@@ -63,6 +97,7 @@ class SolidComplex {
  private:
   void find_neighbours(Job &job);
   double usual_shape2(Memory &memory) const;
+  double volume() const;
   void merge_tets(const SolidEdge &edge, CollapseRoom &room);
   void merge_triangles(const SolidEdge &edge, CollapseRoom &room);
   void merge_neighbours(const SolidEdge &edge, CollapseRoom &room);

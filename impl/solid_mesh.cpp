@@ -4,6 +4,45 @@
 
 namespace tetlod {
 
+namespace {
+
+/// Where nothing is lost, short edges first: what the square of a length counts as.
+constexpr double shape_share = 1e-6;
+
+/// Those that are not gone, with the new numbers of their vertices.
+template <class Simplex>
+void keep_left(Span<const std::int32_t> number, Array<Simplex> &simplices) {
+  const auto is_left = [](const Simplex &simplex) { return simplex[0] >= 0; };
+  Array<Simplex> left(simplices.get_allocator());
+  left.reserve(std::size_t(std::count_if(simplices.begin(), simplices.end(), is_left)));
+  std::copy_if(simplices.begin(), simplices.end(), std::back_inserter(left), is_left);
+  for (Simplex &simplex : left)
+    for (std::int32_t &v : simplex) v = number[std::size_t(v)];
+  simplices = std::move(left);
+}
+
+template <class Vertices>
+Array<Vec3> points_of(const Vertices &vertices, Memory &memory) {
+  Array<Vec3> points(&memory);
+  points.reserve(vertices.size());
+  for (const auto &vertex : vertices) points.push_back(point_of(vertex.place));
+  return points;
+}
+
+}  // namespace
+
+template <std::size_t m>
+FieldsAsLengths<m>::FieldsAsLengths(const MeshView &original, double diagonal) {
+  const Span<const Values<m>> values = original.values<m>();
+  for (const Tet &t : original.tets)
+    for (std::int32_t v : t) range.add(values[std::size_t(v)]);
+  double half = 0;  // the whole may be more than a double holds; the first may be constant
+  for (std::size_t i = 0; i < m && !(half > 0); i++)
+    half = original.scales.relative[i] * (0.5 * range.high[i] - 0.5 * range.low[i]);
+  const double scale = half > 0 ? 0.5 * diagonal / half : 1;
+  for (std::size_t i = 0; i < m; i++) scales[i] = scale * original.scales.weighted[i];
+}
+
 template <std::size_t m>
 SolidMesh<m>::SolidMesh(SolidInOrder solid, Span<const Values<m>> values, const Values<m> &scales, Job &job)
     : SolidComplex(std::move(solid), job),
@@ -13,6 +52,33 @@ SolidMesh<m>::SolidMesh(SolidInOrder solid, Span<const Values<m>> values, const 
     for (std::size_t i = 0; i < 3 + m; i++)
       vertices_[v].place[i] = i < 3 ? points[v][int(i)] : scales[i - 3] * values[std::size_t(origin[v])][i - 3];
   find_quadrics(job);
+}
+
+template <std::size_t m>
+SolidMesh<m>::SolidMesh(SolidRemains<m> &&remains, Job &job)
+    : SolidComplex(points_of(remains.vertices, job.memory), std::move(remains.ranks), std::move(remains.tets),
+                   std::move(remains.triangles), remains.measures, job),
+      origin(std::move(remains.origin)),
+      vertices_(std::move(remains.vertices)) {}
+
+template <std::size_t m>
+SolidRemains<m> SolidMesh<m>::take_remains(Span<const std::int32_t> left, Job &job) {
+  for (StarLists *lists : {&tets_of, &triangles_of, &neighbours}) *lists = StarLists(0, job);  // first, to make room
+  const Array<std::int32_t> number = numbers_of(left, points.size(), job.memory);
+  points = Array<Vec3>(&job.memory);
+  keep_alone(left, origin);
+  keep_alone(left, ranks);
+  keep_alone(left, vertices_);
+  keep_left(number, tets);
+  keep_left(number, triangles);
+  SolidRemains<m> remains(job.memory);
+  remains.measures = measures;
+  remains.origin = std::move(origin);
+  remains.ranks = std::move(ranks);
+  remains.vertices = std::move(vertices_);
+  remains.tets = std::move(tets);
+  remains.triangles = std::move(triangles);
+  return remains;
 }
 
 /// Of the tet's linear functions; none for a flat one.
@@ -72,6 +138,18 @@ LocalQuadric<3 + m> SolidMesh<m>::quadric_of(std::int32_t v, Span<const Gradient
 }
 
 template <std::size_t m>
+BestOfEdge SolidMesh<m>::cost(std::int32_t v, std::int32_t u) const {
+  const auto [stays, gone] = ends_of(v, u);
+  if (!may_go(gone) || rank(stays) == Rank::touching) return {0, std::numeric_limits<double>::infinity()};
+  const Vertex &a = vertex(stays), &b = vertex(gone);
+  const Place d = minus(b.place, a.place);
+  BestOfEdge best = best_of_edge(a.quadric, b.quadric, d, keeps_place(stays, gone));
+  constexpr std::size_t tets_of_vertex = entry_of(3, 3);
+  best.cost += shape_share * length2(point_of(d)) * (a.quadric.a[tets_of_vertex] + b.quadric.a[tets_of_vertex]);
+  return best;
+}
+
+template <std::size_t m>
 void SolidMesh<m>::collapse(const SolidEdge &edge, const Place &place, CollapseRoom &room) {
   Vertex &stays = vertices_[std::size_t(edge.stays)];
   const Vertex &gone = vertex(edge.gone);
@@ -81,6 +159,10 @@ void SolidMesh<m>::collapse(const SolidEdge &edge, const Place &place, CollapseR
   SolidComplex::collapse(edge, point_of(place), room);
 }
 
+template struct FieldsAsLengths<1>;
+template struct FieldsAsLengths<2>;
+template struct FieldsAsLengths<3>;
+template struct FieldsAsLengths<4>;
 template class SolidMesh<1>;
 template class SolidMesh<2>;
 template class SolidMesh<3>;

@@ -7,19 +7,60 @@ namespace tetlod {
 
 /// Of m fields that steer.
 template <std::size_t m>
+struct SolidVertex {
+  Vector<3 + m> place{};  ///< x, y, z, and the values as lengths
+  LocalQuadric<3 + m> quadric;
+};
+
+/// The values of fields in units of length: a field's range counts as the diagonal, where its weight is 1.
+template <std::size_t m>
+struct FieldsAsLengths {
+  FieldsAsLengths(const MeshView &original, double diagonal);
+  ValueRange<m> range;  ///< of the values that tets have: other points' mean nothing
+  Values<m> scales;     ///< length that a unit of each field counts as
+};
+
+/// A mesh without what can be found from the rest, and without gaps.
+template <std::size_t m>
+struct SolidRemains {
+  explicit SolidRemains(Memory &memory)
+      : origin(&memory), ranks(&memory), vertices(&memory), tets(&memory), triangles(&memory) {}
+  SolidRemains(const SolidRemains &of, Memory &memory)
+      : origin(of.origin, &memory),
+        ranks(of.ranks, &memory),
+        vertices(of.vertices, &memory),
+        tets(of.tets, &memory),
+        triangles(of.triangles, &memory),
+        measures(of.measures) {}
+  std::size_t bytes() const {
+    return vertices.size() * (sizeof(SolidVertex<m>) + sizeof(std::int32_t) + sizeof(Rank)) +
+           tets.size() * sizeof(Tet) + triangles.size() * sizeof(Triangle);
+  }
+  Array<std::int32_t> origin;
+  Array<Rank> ranks;
+  Array<SolidVertex<m>> vertices;
+  Array<Tet> tets;
+  Array<Triangle> triangles;
+  SolidMeasures measures;
+};
+
+template <std::size_t m>
 class SolidMesh : public SolidComplex {
  public:
-  using Place = Vector<3 + m>;  ///< x, y, z, and the values as lengths
-
-  struct Vertex {
-    Place place{};
-    LocalQuadric<3 + m> quadric;
-  };
+  using Place = Vector<3 + m>;
+  using Vertex = SolidVertex<m>;
 
   /// values: of the original vertices; scales: the length that a unit of each field counts as.
   SolidMesh(SolidInOrder solid, Span<const Values<m>> values, const Values<m> &scales, Job &job);
+  SolidMesh(SolidRemains<m> &&remains, Job &job);
+
+  /// What is left, taken out of the mesh, of which nothing else stays; its vertices, ascending, get the numbers from 0
+  /// on.
+  SolidRemains<m> take_remains(Span<const std::int32_t> left, Job &job);
 
   Array<std::int32_t> origin;  ///< the original vertex of each one
+
+  BestOfEdge cost(std::int32_t v, std::int32_t u) const;
 
   const Vertex &vertex(std::int32_t v) const { return vertices_[std::size_t(v)]; }
 

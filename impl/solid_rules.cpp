@@ -107,7 +107,7 @@ bool share_chord(const SolidComplex &mesh, const Ring &ring, const SolidEdge &ed
 
 /// Whether tet t, with its corner v at another place, would turn over, or be flat and flatter than it is.
 bool is_flattened(const SolidComplex &mesh, const Tet &t, std::int32_t v, const Vec3 &place) {
-  const double limit2 = mesh.least_shape2;
+  const double limit2 = mesh.measures.least_shape2;
   const Vec3 before[4] = {mesh.point(t[0]), mesh.point(t[1]), mesh.point(t[2]), mesh.point(t[3])};
   const Vec3 after[4] = {t[0] == v ? place : before[0], t[1] == v ? place : before[1], t[2] == v ? place : before[2],
                          t[3] == v ? place : before[3]};

@@ -39,6 +39,7 @@ class StarLists {
   StarLists(std::size_t vertices, Job &job)
       : begin_(vertices, nullptr, &job.memory), count_(vertices, 0, &job.memory), items_(&job.memory) {}
   StarLists(StarLists &&) = default;
+  StarLists &operator=(StarLists &&) = default;
 
   /// The simplices of each vertex, but those that are gone, whose first corner is -1.
   template <std::size_t corners>

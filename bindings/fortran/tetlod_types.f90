@@ -122,6 +122,7 @@ module tetlod_types
     integer(c_int64_t) :: reused_tets = 0
     integer(c_int64_t) :: reused_triangles = 0
     integer(c_int64_t) :: reused_samples = 0
+    integer(c_int64_t) :: reused_collapses = 0
   end type
 
   ! The field error of the last result, relative to the range of the original's values.

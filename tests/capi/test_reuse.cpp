@@ -177,6 +177,33 @@ TEST_F(Reuse, TargetsOfTheSameValues) {
   EXPECT_EQ(report.reused_tets, tets());
 }
 
+/// Whichever size comes first, and in the rounds of a bound.
+TEST_F(Reuse, CollapsesOfTheSameValues) {
+  cube = Cube(12);
+  const auto level = [this](double ratio, double bound) {
+    options = {[=](tetlod_context *of) {
+      tetlod_set_real(of, TETLOD_OPT_TARGET_RATIO, ratio);
+      tetlod_set_real(of, TETLOD_OPT_MAX_ERROR, bound);
+    }};
+    return expect_fresh_bytes().reused_collapses;
+  };
+  EXPECT_EQ(level(0.2, 0), 0);
+  const std::int64_t of_same = level(0.2, 0);
+  EXPECT_GT(of_same, 0);
+  EXPECT_EQ(level(0.05, 0), of_same) << "a coarser one goes on";
+  EXPECT_GT(level(0.04, 0), of_same);
+  EXPECT_EQ(level(0.2, 0), of_same);
+  EXPECT_EQ(level(0.9, 0), 0) << "nothing is kept of so fine a mesh";
+  new_values(0.2);
+  EXPECT_EQ(level(0.2, 0), 0);
+  flags.assign(cube.values.size(), 0);
+  flags[7] = TETLOD_FLAG_KEEP;
+  EXPECT_EQ(level(0.2, 0), 0);
+  flags[7] = 0;
+  EXPECT_EQ(level(0.2, 0), 0);
+  EXPECT_GT(level(0, 0.001), 0) << "a later round of a bound";
+}
+
 /// With a field more, other values of it, another weight, a weight of nothing, and without it again.
 TEST_F(Reuse, FieldsThatSteer) {
   const std::size_t points = cube.values.size();

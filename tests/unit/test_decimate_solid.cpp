@@ -2,6 +2,7 @@
 // condition allows.
 #include <gtest/gtest.h>
 
+#include <random>
 #include <set>
 
 #include "brute_force.hpp"
@@ -39,8 +40,13 @@ class DecimateSolid : public testing::Test {
   }
 
   bool decimate(double ratio, Host &on, CoarseSolid &coarse) {
+    SolidHistory history(on.memory);
+    return decimate(ratio, on, history, coarse);
+  }
+
+  bool decimate(double ratio, Host &on, SolidHistory &history, CoarseSolid &coarse) {
     options.tets = std::int64_t(ratio * double(original.tets.size()));
-    failure = decimate_solid_and_check(original.view(), boundary, surface, topology, options, on.job, coarse);
+    failure = decimate_solid_and_check(original.view(), boundary, surface, topology, options, history, on.job, coarse);
     return failure.empty();
   }
 
@@ -132,6 +138,26 @@ TEST_F(DecimateSolid, SameBytesForAnyNumberOfThreads) {
     ASSERT_TRUE(decimate(0.1, several, other));
     expect_same(one.mesh, other.mesh);
   }
+}
+
+TEST_F(DecimateSolid, WithAHistorySameBytesSooner) {
+  Mesh mesh = kuhn_cube(20);
+  set_scalars(mesh, waves);
+  start_with(mesh);
+  std::vector<double> ratios;
+  for (double ratio = 0.9; ratio > 0.01; ratio *= 0.8) ratios.push_back(ratio);
+  std::shuffle(ratios.begin(), ratios.end(), std::mt19937(1));
+  SolidHistory history(host.memory);
+  std::int64_t saved = 0;
+  for (double ratio : ratios) {
+    CoarseSolid alone(host.memory), later(host.memory);
+    ASSERT_EQ(decimate(ratio, host, alone), decimate(ratio, host, history, later));
+    expect_same(alone.mesh, later.mesh);
+    EXPECT_EQ(alone.origin, later.origin);
+    EXPECT_EQ(alone.reused, 0);
+    saved += later.reused;
+  }
+  EXPECT_GT(double(saved), 0.4 * double(ratios.size()) * double(mesh.points.size()));
 }
 
 TEST_F(DecimateSolid, BlocksOfAPlateGetOn) {

@@ -1,0 +1,76 @@
+// What is left of a solid between two rounds of collapses, kept so that other sizes of the same mesh begin there.
+#pragma once
+#include <limits>
+#include <variant>
+
+#include "fingerprint.hpp"
+#include "solid_mesh.hpp"
+
+namespace tetlod {
+
+/// No admissible edge of a vertex costs less, as far as was known in that round.
+struct CheapestEdge {
+  double cost = std::numeric_limits<double>::infinity(), t = 0;
+  std::int32_t other = -1;
+  int round = -1;
+};
+
+/// How far the rounds are, and what they know.
+struct SolidProgress {
+  /// Before the first round.
+  SolidProgress(std::size_t vertices, Memory &memory);
+  SolidProgress(const SolidProgress &of, Memory &memory);
+
+  std::size_t bytes() const {
+    return cheapest.size() * (sizeof(CheapestEdge) + sizeof(int)) + changed.size() * sizeof(std::int32_t);
+  }
+  /// The vertices that are left, ascending, get the numbers from 0 on.
+  void close_gaps(Span<const std::int32_t> left, Memory &memory);
+
+  void allow(double target) { largest_target = std::min(largest_target, std::int64_t(std::floor(target))); }
+
+  int round = 0;
+  bool most_waited = false;         ///< in the round before
+  std::int64_t largest_target = std::numeric_limits<std::int64_t>::max();  ///< up to it the rounds so far are the same
+  Array<CheapestEdge> cheapest;     ///< of each vertex
+  Array<int> moved;                 ///< the round in which each vertex moved last
+  Array<std::int32_t> changed;      ///< whose edges cost something else than they did
+};
+
+template <std::size_t m>
+struct SolidState {
+  SolidRemains<m> remains;
+  SolidProgress progress;
+};
+
+/// Of one mesh and its values, each state coarser than the one before.
+class SolidHistory {
+ public:
+  explicit SolidHistory(Memory &memory) : states_(Array<SolidState<1>>(&memory)) {}
+
+  /// Forgets the states, unless they are of the same values.
+  void begin(const MeshView &original, Memory &memory);
+  void forget(Memory &memory) { *this = SolidHistory(memory); }
+
+  /// The coarsest of the states that the rounds to a target go through; null: none is kept.
+  template <std::size_t m>
+  const SolidState<m> *before(std::int64_t target, Memory &memory) {
+    const SolidState<m> *last = nullptr;
+    for (const SolidState<m> &state : states<m>(memory))
+      if (target <= state.progress.largest_target) last = &state;
+    return last;
+  }
+
+  template <std::size_t m>
+  Array<SolidState<m>> &states(Memory &memory) {
+    using States = Array<SolidState<m>>;
+    States *const states = std::get_if<States>(&states_);
+    return states ? *states : states_.emplace<States>(&memory);
+  }
+
+ private:
+  Fingerprint values_;
+  std::variant<Array<SolidState<1>>, Array<SolidState<2>>, Array<SolidState<3>>, Array<SolidState<4>>> states_;
+};
+
+}  // namespace tetlod
