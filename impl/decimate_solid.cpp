@@ -49,7 +49,6 @@ class SolidDecimator {
         progress_(std::move(progress)),
         states_(states),
         count_(std::int64_t(mesh_.tets.size())),
-        without_gaps_(count_),
         blocks_(mesh_.points.size(), job.memory),
         rooms_(&job.memory),
         works_(&job.memory),
@@ -74,7 +73,7 @@ class SolidDecimator {
       drop_gone(left_);
       drop_gone(progress_.changed);
       progress_.round++;
-      if (states_ && 2 * count_ < without_gaps_ && count_ > target_) close_gaps();
+      if (states_ && count_ < progress_.next_closing && count_ > target_) close_gaps();
     }
   }
 
@@ -226,8 +225,9 @@ class SolidDecimator {
 
   // ---- States
 
-  /// What is left moves together, when that is half.
+  /// What is left moves together, so that it is near in memory.
   void close_gaps() {
+    progress_.next_closing = count_ / 2;
     progress_.close_gaps(left_, job_.memory);
     SolidRemains<m> remains = mesh_.take_remains(left_, job_);
     for (CollapseRoom &room : rooms_) room.clear();
@@ -235,14 +235,14 @@ class SolidDecimator {
     mesh_ = SolidMesh<m>(std::move(remains), job_);
     std::iota(left_.begin(), left_.end(), 0);
     blocks_ = SolidBlocks(left_.size(), job_.memory);
-    without_gaps_ = count_;
   }
 
   /// Unless it is of this target alone, kept already, or would take memory that the run does not need without it.
   void keep_state(const SolidRemains<m> &remains) {
     const bool is_kept = !states_->empty() && states_->back().remains.tets.size() <= remains.tets.size();
     if (is_kept || progress_.largest_target < target_) return;
-    if (job_.memory.in_use() + remains.bytes() + progress_.bytes() > job_.memory.peak()) return;
+    const std::size_t of_lists = remains.bytes() / 4 * 5;  // about, when they are made again, and grow
+    if (job_.memory.in_use() + remains.bytes() + progress_.bytes() + of_lists > job_.memory.peak()) return;
     states_->push_back({SolidRemains<m>(remains, job_.memory), SolidProgress(progress_, job_.memory)});
   }
 
@@ -350,7 +350,7 @@ class SolidDecimator {
   SolidMesh<m> mesh_;
   SolidProgress progress_;
   Array<SolidState<m>> *states_;
-  std::int64_t count_, without_gaps_;  // tets that are left, and were when gaps were closed
+  std::int64_t count_;  // of the tets that are left
   SolidBlocks blocks_;
   Array<CollapseRoom> rooms_;  // of each block
   Array<Work> works_;
@@ -386,7 +386,7 @@ std::int64_t decimate_solid(const MeshView &original, const Boundary &boundary, 
     SolidMesh<m> solid = state ? SolidMesh<m>(SolidRemains<m>(state->remains, job.memory), job)
                                : begin_with<m>(original, boundary, options, fields.scales, job);
     SolidProgress progress =
-        state ? SolidProgress(state->progress, job.memory) : SolidProgress(solid.points.size(), job.memory);
+        state ? SolidProgress(state->progress, job.memory) : SolidProgress(solid.points.size(), solid.tets.size(), job.memory);
     const std::size_t known = solid.points.size();
     SolidDecimator<m> decimator(original, surface, options, fields, std::move(solid), std::move(progress),
                                 keeps_states ? &history.states<m>(job.memory) : nullptr, job);

@@ -127,18 +127,17 @@ void add_inner(const MeshView &original, double most, Job &job, Array<Probe<m>> 
 class Locator {
  public:
   Locator(const TetComplex &mesh, Job &job) : mesh_(mesh), frames_(&job.memory), tree_(job.memory) {
+    while (!mesh.alive(start_)) start_++;
     Array<Box> boxes(mesh.tets.size(), &job.memory);
-    frames_.reserve(mesh.tets.size());  // filled as the loop goes: to touch them all takes as long as 50 ms
-    for (std::size_t t = 0; t < mesh.tets.size(); t++) {
-      if (t % 16384 == 0) job.poll(0.1);
-      frames_.emplace_back();
-      if (!mesh.alive(std::int32_t(t))) continue;
-      start_ = std::int32_t(t);
-      frames_[t] = mesh.frame(std::int32_t(t));
-      for (int k = 0; k < 4; k++) boxes[t].add(mesh.corner(std::int32_t(t), k));
-      const Vec3 margin = tolerance * (boxes[t].high - boxes[t].low);
-      boxes[t].low -= margin;
-      boxes[t].high += margin;
+    frames_.reserve(mesh.tets.size());
+    for (std::size_t first = 0; first < mesh.tets.size(); first += many) {  // to touch all at once takes as long as 50 ms
+      const std::size_t count = std::min(many, mesh.tets.size() - first);
+      frames_.resize(first + count);
+      job.parallel.for_blocks(count, block, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t t = first + begin; t < first + end; t++)
+          if (mesh.alive(std::int32_t(t))) add(std::int32_t(t), boxes[t]);
+      });
+      job.poll(0.1);
     }
     tree_.build(std::move(boxes), leaf, job, 0.1);
   }
@@ -150,6 +149,16 @@ class Locator {
   }
 
  private:
+  static constexpr std::size_t many = 1 << 15;
+
+  void add(std::int32_t t, Box &box) {
+    frames_[std::size_t(t)] = mesh_.frame(t);
+    for (int k = 0; k < 4; k++) box.add(mesh_.corner(t, k));
+    const Vec3 margin = tolerance * (box.high - box.low);
+    box.low -= margin;
+    box.high += margin;
+  }
+
   std::int32_t walk(const Vec3 &p, std::int32_t t) const {
     for (int step = 0; step < longest_walk; step++) {
       double w[4];

@@ -32,7 +32,7 @@ SolidComplex::SolidComplex(Array<Vec3> &&points_of, Array<Rank> &&ranks_of, Arra
       triangles(std::move(triangles_of_it)),
       tets_of(Span<const Tet>(tets), points.size(), job),
       triangles_of(Span<const Triangle>(triangles), points.size(), job),
-      neighbours(points.size(), job),
+      neighbours(0, job),
       measures(of_original) {
   find_neighbours(job);
 }
@@ -61,7 +61,21 @@ double SolidComplex::volume() const {
   return sum / 6;
 }
 
+/// Of each vertex, from Euler's formula for the sphere, or the disk, that its tets have opposite it; where the solid
+/// touches itself there are more.
+Array<std::uint32_t> SolidComplex::usual_neighbours(Memory &memory) const {
+  Array<std::uint32_t> counts(&memory);
+  counts.reserve(points.size());
+  for (std::size_t v = 0; v < points.size(); v++) {
+    const auto around = std::uint32_t(tets_of.of(std::int32_t(v)).size());
+    const auto rim = std::uint32_t(triangles_of.of(std::int32_t(v)).size());
+    counts.push_back((around + rim) / 2 + (rim == 0 ? 2 : 1));
+  }
+  return counts;
+}
+
 void SolidComplex::find_neighbours(Job &job) {
+  neighbours = StarLists(usual_neighbours(job.memory), job);
   Array<std::int32_t> seen_by(points.size(), -1, &job.memory), list(&job.memory);
   ListRoom room(job.memory);
   for (std::size_t v = 0; v < points.size(); v++) {
@@ -76,7 +90,7 @@ void SolidComplex::find_neighbours(Job &job) {
       }
     neighbours.set(std::int32_t(v), list, room);
   }
-  neighbours.compact();
+  if (room.taken() > 0) neighbours.compact();
 }
 
 void SolidComplex::collapse(const SolidEdge &edge, const Vec3 &point, CollapseRoom &room) {

@@ -95,6 +95,7 @@ class SolidComplex {
   void tidy(Span<CollapseRoom> rooms);
 
  private:
+  Array<std::uint32_t> usual_neighbours(Memory &memory) const;
   void find_neighbours(Job &job);
   double usual_shape2(Memory &memory) const;
   double volume() const;

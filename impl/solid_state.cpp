@@ -4,8 +4,9 @@
 
 namespace tetlod {
 
-SolidProgress::SolidProgress(std::size_t vertices, Memory &memory)
-    : cheapest(vertices, CheapestEdge(), &memory), moved(vertices, -1, &memory), changed(vertices, 0, &memory) {
+SolidProgress::SolidProgress(std::size_t vertices, std::size_t tets, Memory &memory)
+    : next_closing(std::int64_t(tets) / 4 * 3),  // soon, as the first rounds are the longest
+      cheapest(vertices, CheapestEdge(), &memory), moved(vertices, -1, &memory), changed(vertices, 0, &memory) {
   std::iota(changed.begin(), changed.end(), 0);
 }
 
@@ -13,6 +14,7 @@ SolidProgress::SolidProgress(const SolidProgress &of, Memory &memory)
     : round(of.round),
       most_waited(of.most_waited),
       largest_target(of.largest_target),
+      next_closing(of.next_closing),
       cheapest(of.cheapest, &memory),
       moved(of.moved, &memory),
       changed(of.changed, &memory) {}

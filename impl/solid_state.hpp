@@ -18,7 +18,7 @@ struct CheapestEdge {
 /// How far the rounds are, and what they know.
 struct SolidProgress {
   /// Before the first round.
-  SolidProgress(std::size_t vertices, Memory &memory);
+  SolidProgress(std::size_t vertices, std::size_t tets, Memory &memory);
   SolidProgress(const SolidProgress &of, Memory &memory);
 
   std::size_t bytes() const {
@@ -32,6 +32,7 @@ struct SolidProgress {
   int round = 0;
   bool most_waited = false;         ///< in the round before
   std::int64_t largest_target = std::numeric_limits<std::int64_t>::max();  ///< up to it the rounds so far are the same
+  std::int64_t next_closing = 0;    ///< with fewer tets, gaps are closed
   Array<CheapestEdge> cheapest;     ///< of each vertex
   Array<int> moved;                 ///< the round in which each vertex moved last
   Array<std::int32_t> changed;      ///< whose edges cost something else than they did

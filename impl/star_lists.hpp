@@ -41,6 +41,12 @@ class StarLists {
   StarLists(StarLists &&) = default;
   StarLists &operator=(StarLists &&) = default;
 
+  /// Lists with room for so many entries, to be set.
+  StarLists(Array<std::uint32_t> &&entries, Job &job)
+      : begin_(entries.size(), nullptr, &job.memory), count_(std::move(entries)), items_(&job.memory) {
+    give_room();
+  }
+
   /// The simplices of each vertex, but those that are gone, whose first corner is -1.
   template <std::size_t corners>
   StarLists(Span<const std::array<std::int32_t, corners>> simplices, std::size_t vertices, Job &job)
@@ -49,15 +55,8 @@ class StarLists {
     for (const auto &s : simplices)
       if (s[0] >= 0)
         for (std::int32_t v : s) count_[std::size_t(v)]++;
-    std::size_t total = 0;
-    for (std::uint32_t count : count_) total += count;
-    items_.resize(total);
-    std::int32_t *next = items_.data();
-    for (std::size_t v = 0; v < vertices; v++) {
-      begin_[v] = next;
-      next += count_[v];
-      count_[v] = 0;
-    }
+    give_room();
+    std::fill(count_.begin(), count_.end(), 0);
     for (std::size_t i = 0; i < simplices.size(); i++) {
       if (i % 65536 == 0) job.poll(0);
       if (simplices[i][0] < 0) continue;
@@ -100,6 +99,17 @@ class StarLists {
   }
 
  private:
+  void give_room() {
+    std::size_t total = 0;
+    for (std::uint32_t count : count_) total += count;
+    items_.resize(total);
+    std::int32_t *next = items_.data();
+    for (std::size_t v = 0; v < begin_.size(); v++) {
+      begin_[v] = next;
+      next += count_[v];
+    }
+  }
+
   std::int32_t *find(std::int32_t v, std::int32_t entry) {
     return std::find(begin_[std::size_t(v)], begin_[std::size_t(v)] + count_[std::size_t(v)], entry);
   }
