@@ -205,6 +205,18 @@ void cancel_nothing(Session &session, Bytes &) {
   session.run({});
 }
 
+/// What a run of another size leaves in the context does not show in the bytes.
+void run_another_size_between(Session &session, double size, Bytes &in) {
+  const std::uint64_t wanted = session.last_hash();
+  session.set({TETLOD_OPT_TARGET_RATIO, in.fraction(), 0});
+  session.run({});
+  session.set({TETLOD_OPT_TARGET_RATIO, size, 0});
+  const tetlod_status status = session.run({});
+  if (status == TETLOD_ERR_MEMORY_LIMIT || status == TETLOD_ERR_TIME_LIMIT) return;  // the other result takes some, too
+  DEMAND(status == TETLOD_OK, "what could be run can be run again: %d", status);
+  DEMAND(session.last_hash() == wanted, "the same size gives the same bytes");
+}
+
 /// The same input another way gives the same bytes.
 void run_another_way(Session &session, Bytes &in) {
   if (!session.complete() || session.run({}) != TETLOD_OK) return;
@@ -222,6 +234,8 @@ void run_another_way(Session &session, Bytes &in) {
   DEMAND(status == TETLOD_OK, "another layout of the same mesh is the same mesh: %d", status);
   DEMAND(session.last_hash() == wanted, "the same input gives the same bytes");
   tetlod_set_int(session.context(), TETLOD_OPT_THREADS, std::int64_t(threads));
+  const double size = session.option(TETLOD_OPT_TARGET_RATIO);
+  if (size > 0 && in.one_in(2)) run_another_size_between(session, size, in);
 }
 
 void measure(Session &session, Bytes &in) {
