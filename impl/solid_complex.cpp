@@ -75,22 +75,30 @@ Array<std::uint32_t> SolidComplex::usual_neighbours(Memory &memory) const {
 }
 
 void SolidComplex::find_neighbours(Job &job) {
+  constexpr std::size_t parts = 8;  // each has to remember what it has seen
   neighbours = StarLists(usual_neighbours(job.memory), job);
-  Array<std::int32_t> seen_by(points.size(), -1, &job.memory), list(&job.memory);
-  ListRoom room(job.memory);
-  for (std::size_t v = 0; v < points.size(); v++) {
-    if (v % 4096 == 0) job.poll(0);
-    list.clear();
-    seen_by[v] = std::int32_t(v);
-    for (std::int32_t t : tets_of.of(std::int32_t(v)))
-      for (std::int32_t u : tets[std::size_t(t)]) {
-        if (seen_by[std::size_t(u)] == std::int32_t(v)) continue;
-        seen_by[std::size_t(u)] = std::int32_t(v);
-        list.push_back(u);
-      }
-    neighbours.set(std::int32_t(v), list, room);
-  }
-  if (room.taken() > 0) neighbours.compact();
+  Array<CollapseRoom> rooms(&job.memory);
+  rooms.reserve(parts);
+  for (std::size_t i = 0; i < parts; i++) rooms.emplace_back(job.memory);
+  const std::size_t part = points.size() / parts + 1;
+  job.parallel.for_blocks(points.size(), part, [&](std::size_t begin, std::size_t end) {
+    CollapseRoom &room = rooms[begin / part];
+    Array<std::int32_t> seen_by(points.size(), -1, &job.memory);
+    for (std::size_t v = begin; v < end; v++) {
+      if (v % 4096 == 0) job.poll(0);
+      room.list.clear();
+      seen_by[v] = std::int32_t(v);
+      for (std::int32_t t : tets_of.of(std::int32_t(v)))
+        for (std::int32_t u : tets[std::size_t(t)]) {
+          if (seen_by[std::size_t(u)] == std::int32_t(v)) continue;
+          seen_by[std::size_t(u)] = std::int32_t(v);
+          room.list.push_back(u);
+        }
+      neighbours.set(std::int32_t(v), room.list, room.neighbours);
+    }
+  });
+  if (std::any_of(rooms.begin(), rooms.end(), [](const CollapseRoom &room) { return room.neighbours.taken() > 0; }))
+    neighbours.compact();
 }
 
 void SolidComplex::collapse(const SolidEdge &edge, const Vec3 &point, CollapseRoom &room) {
@@ -147,7 +155,7 @@ void SolidComplex::merge_neighbours(const SolidEdge &edge, CollapseRoom &room) {
   neighbours.clear(edge.gone);
 }
 
-void SolidComplex::tidy(Span<CollapseRoom> rooms) {
+void SolidComplex::tidy(Span<CollapseRoom> rooms, Job &job) {
   constexpr std::size_t much = 4;  // times what has grown is all
   const auto tidy_up = [&](StarLists &lists, ListRoom CollapseRoom::*room) {
     std::size_t taken = 0;
@@ -156,9 +164,9 @@ void SolidComplex::tidy(Span<CollapseRoom> rooms) {
     lists.compact();
     for (CollapseRoom &some : rooms) (some.*room).clear();
   };
-  tidy_up(tets_of, &CollapseRoom::tets);
-  tidy_up(triangles_of, &CollapseRoom::triangles);
-  tidy_up(neighbours, &CollapseRoom::neighbours);
+  StarLists *const lists[] = {&tets_of, &neighbours, &triangles_of};
+  ListRoom CollapseRoom::*const room[] = {&CollapseRoom::tets, &CollapseRoom::neighbours, &CollapseRoom::triangles};
+  job.parallel.for_blocks(3, 1, [&](std::size_t i, std::size_t) { tidy_up(*lists[i], room[i]); });
 }
 
 }  // namespace tetlod
