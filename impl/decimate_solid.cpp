@@ -69,7 +69,7 @@ class SolidDecimator {
     for (double limit; count_ > target_ && (limit = limit_of_round()) < infinity;) {
       job_.poll(1 - double(count_ - target_) / surplus);
       collapse_some(limit);
-      mesh_.tidy({rooms_.data(), rooms_.size()}, job_);
+      mesh_.tidy({rooms_.data(), rooms_.size()});
       drop_gone(left_);
       drop_gone(progress_.changed);
       progress_.round++;

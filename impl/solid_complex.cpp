@@ -155,7 +155,7 @@ void SolidComplex::merge_neighbours(const SolidEdge &edge, CollapseRoom &room) {
   neighbours.clear(edge.gone);
 }
 
-void SolidComplex::tidy(Span<CollapseRoom> rooms, Job &job) {
+void SolidComplex::tidy(Span<CollapseRoom> rooms) {
   constexpr std::size_t much = 4;  // times what has grown is all
   const auto tidy_up = [&](StarLists &lists, ListRoom CollapseRoom::*room) {
     std::size_t taken = 0;
@@ -164,9 +164,9 @@ void SolidComplex::tidy(Span<CollapseRoom> rooms, Job &job) {
     lists.compact();
     for (CollapseRoom &some : rooms) (some.*room).clear();
   };
-  StarLists *const lists[] = {&tets_of, &neighbours, &triangles_of};
-  ListRoom CollapseRoom::*const room[] = {&CollapseRoom::tets, &CollapseRoom::neighbours, &CollapseRoom::triangles};
-  job.parallel.for_blocks(3, 1, [&](std::size_t i, std::size_t) { tidy_up(*lists[i], room[i]); });
+  tidy_up(tets_of, &CollapseRoom::tets);
+  tidy_up(triangles_of, &CollapseRoom::triangles);
+  tidy_up(neighbours, &CollapseRoom::neighbours);
 }
 
 }  // namespace tetlod

@@ -92,7 +92,7 @@ class SolidComplex {
   void collapse(const SolidEdge &edge, const Vec3 &point, CollapseRoom &room);
 
   /// Lists side by side again, when those that have grown take much room.
-  void tidy(Span<CollapseRoom> rooms, Job &job);
+  void tidy(Span<CollapseRoom> rooms);
 
  private:
   Array<std::uint32_t> usual_neighbours(Memory &memory) const;
