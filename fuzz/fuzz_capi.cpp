@@ -156,9 +156,7 @@ void set_preset(Session &session, Bytes &in) {
 
 /// A size, a bound, both, or neither again.
 void set_target(Session &session, Bytes &in) {
-  const auto set = [&](std::int32_t option, double real, std::int64_t integer) {
-    session.set({option, real, integer});
-  };
+  const auto set = [&](std::int32_t option, double real, std::int64_t whole) { session.set({option, real, whole}); };
   const std::size_t kind = in.below(5);
   if (kind == 2) set(TETLOD_OPT_MAX_DEVIATION, in.fraction() * std::pow(10.0, -double(in.below(4))), 0);
   const bool samples = in.one_in(3);  // small meshes are remeshed only where edges are to be cleaned
@@ -205,18 +203,6 @@ void cancel_nothing(Session &session, Bytes &) {
   session.run({});
 }
 
-/// What a run of another size leaves in the context does not show in the bytes.
-void run_another_size_between(Session &session, double size, Bytes &in) {
-  const std::uint64_t wanted = session.last_hash();
-  session.set({TETLOD_OPT_TARGET_RATIO, in.fraction(), 0});
-  session.run({});
-  session.set({TETLOD_OPT_TARGET_RATIO, size, 0});
-  const tetlod_status status = session.run({});
-  if (status == TETLOD_ERR_MEMORY_LIMIT || status == TETLOD_ERR_TIME_LIMIT) return;  // the other result takes some, too
-  DEMAND(status == TETLOD_OK, "what could be run can be run again: %d", status);
-  DEMAND(session.last_hash() == wanted, "the same size gives the same bytes");
-}
-
 /// The same input another way gives the same bytes.
 void run_another_way(Session &session, Bytes &in) {
   if (!session.complete() || session.run({}) != TETLOD_OK) return;
@@ -234,8 +220,7 @@ void run_another_way(Session &session, Bytes &in) {
   DEMAND(status == TETLOD_OK, "another layout of the same mesh is the same mesh: %d", status);
   DEMAND(session.last_hash() == wanted, "the same input gives the same bytes");
   tetlod_set_int(session.context(), TETLOD_OPT_THREADS, std::int64_t(threads));
-  const double size = session.option(TETLOD_OPT_TARGET_RATIO);
-  if (size > 0 && in.one_in(2)) run_another_size_between(session, size, in);
+  if (in.one_in(2)) session.run_another_size_between(in.fraction());
 }
 
 void measure(Session &session, Bytes &in) {

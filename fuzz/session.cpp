@@ -271,6 +271,19 @@ tetlod_status Session::run(const Disturbance &disturbance) {
   return status;
 }
 
+void Session::run_another_size_between(double ratio) {
+  const double asked = option(TETLOD_OPT_TARGET_RATIO);
+  if (asked <= 0) return;
+  const std::uint64_t wanted = hash_;
+  set({TETLOD_OPT_TARGET_RATIO, ratio, 0});
+  run({});
+  set({TETLOD_OPT_TARGET_RATIO, asked, 0});
+  const tetlod_status status = run({});
+  if (status == TETLOD_ERR_MEMORY_LIMIT || status == TETLOD_ERR_TIME_LIMIT) return;  // the other result takes some, too
+  DEMAND(status == TETLOD_OK, "what could be run can be run again: %d", status);
+  DEMAND(hash_ == wanted, "the same size gives the same bytes");
+}
+
 void Session::check_kept() {
   if (!last_) {
     std::int64_t points = 7;

@@ -83,6 +83,8 @@ class Session {
   double option(std::int32_t number) const;
 
   tetlod_status run(const Disturbance &disturbance);
+  /// After a run that has met a target ratio: what one of another leaves in the context does not show in the bytes.
+  void run_another_size_between(double ratio);
   /// Counts of defects, and a verdict that the run after it bears out.
   void check(const Disturbance &disturbance);
   void estimate(const Disturbance &disturbance);

@@ -385,8 +385,8 @@ std::int64_t decimate_solid(const MeshView &original, const Boundary &boundary, 
     const SolidState<m> *const state = keeps_states ? history.before<m>(options.tets, job.memory) : nullptr;
     SolidMesh<m> solid = state ? SolidMesh<m>(SolidRemains<m>(state->remains, job.memory), job)
                                : begin_with<m>(original, boundary, options, fields.scales, job);
-    SolidProgress progress =
-        state ? SolidProgress(state->progress, job.memory) : SolidProgress(solid.points.size(), solid.tets.size(), job.memory);
+    SolidProgress progress = state ? SolidProgress(state->progress, job.memory)
+                                   : SolidProgress(solid.points.size(), solid.tets.size(), job.memory);
     const std::size_t known = solid.points.size();
     SolidDecimator<m> decimator(original, surface, options, fields, std::move(solid), std::move(progress),
                                 keeps_states ? &history.states<m>(job.memory) : nullptr, job);

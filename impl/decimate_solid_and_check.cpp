@@ -55,8 +55,8 @@ std::string check(const SolidOptions &options, const SurfaceTopology &topology, 
 }  // namespace
 
 std::string decimate_solid_and_check(const MeshView &original, const Boundary &boundary, const Surface &surface,
-                                     const SurfaceTopology &topology, SolidOptions options,
-                                     SolidHistory &history, Job &job, CoarseSolid &coarse) {
+                                     const SurfaceTopology &topology, SolidOptions options, SolidHistory &history,
+                                     Job &job, CoarseSolid &coarse) {
   const Array<std::uint8_t> touching = touching_vertices(original, surface, topology, job);
   options.touching = touching;
   coarse.reused = decimate_solid(original, boundary, surface, options, history, job, coarse.mesh, coarse.origin);

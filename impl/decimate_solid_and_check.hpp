@@ -21,7 +21,7 @@ struct CoarseSolid {
 /// Returns what is wrong with the outcome, or an empty text: the size is missed by more than 1 %, a tet is not
 /// positive, tets overlap, or the boundary crosses itself.
 std::string decimate_solid_and_check(const MeshView &original, const Boundary &boundary, const Surface &surface,
-                                     const SurfaceTopology &topology, SolidOptions options,
-                                     SolidHistory &history, Job &job, CoarseSolid &coarse);
+                                     const SurfaceTopology &topology, SolidOptions options, SolidHistory &history,
+                                     Job &job, CoarseSolid &coarse);
 
 }  // namespace tetlod

@@ -12,8 +12,8 @@ constexpr std::size_t many = 1 << 15;  // tets between two polls of passes that 
 /// Partial sums over tets are this many, so that they may be made at the same time.
 constexpr std::size_t parts = 8;
 
-/// Products of weights at the corners of a tet, summed over its probes: half of a symmetric matrix. Kept short, as every
-/// step reads all of them.
+/// Products of weights at the corners of a tet, summed over its probes: half of a symmetric matrix. Kept short, as
+/// every step reads all of them.
 using Products = std::array<float, 10>;
 
 /// What the probes of one tet say.

@@ -121,8 +121,9 @@ class Pipeline {
     const double diagonal = original_.box.diagonal();
     const SolidOptions options{budget_.tets, options_.max_deviation * diagonal, original_.flags, {}};
     CoarseSolid coarse(job_.memory);
-    const std::string wrong = decimate_solid_and_check(original_.view, boundary_, prepared_.surface(job_),
-                                                       prepared_.topology(job_), options, prepared_.history(job_), job_, coarse);
+    const std::string wrong =
+        decimate_solid_and_check(original_.view, boundary_, prepared_.surface(job_), prepared_.topology(job_), options,
+                                 prepared_.history(job_), job_, coarse);
     report_.reused_collapses = coarse.reused;
     if (!wrong.empty()) {
       if (job_.log) job_.log(1, ("edges collapsed in vain, so that it is remeshed: " + wrong).c_str());

@@ -6,7 +6,9 @@ namespace tetlod {
 
 SolidProgress::SolidProgress(std::size_t vertices, std::size_t tets, Memory &memory)
     : next_closing(std::int64_t(tets) / 4 * 3),  // soon, as the first rounds are the longest
-      cheapest(vertices, CheapestEdge(), &memory), moved(vertices, -1, &memory), changed(vertices, 0, &memory) {
+      cheapest(vertices, CheapestEdge(), &memory),
+      moved(vertices, -1, &memory),
+      changed(vertices, 0, &memory) {
   std::iota(changed.begin(), changed.end(), 0);
 }
 

@@ -30,12 +30,12 @@ struct SolidProgress {
   void allow(double target) { largest_target = std::min(largest_target, std::int64_t(std::floor(target))); }
 
   int round = 0;
-  bool most_waited = false;         ///< in the round before
+  bool most_waited = false;                                                ///< in the round before
   std::int64_t largest_target = std::numeric_limits<std::int64_t>::max();  ///< up to it the rounds so far are the same
-  std::int64_t next_closing = 0;    ///< with fewer tets, gaps are closed
-  Array<CheapestEdge> cheapest;     ///< of each vertex
-  Array<int> moved;                 ///< the round in which each vertex moved last
-  Array<std::int32_t> changed;      ///< whose edges cost something else than they did
+  std::int64_t next_closing = 0;                                           ///< with fewer tets, gaps are closed
+  Array<CheapestEdge> cheapest;                                            ///< of each vertex
+  Array<int> moved;             ///< the round in which each vertex moved last
+  Array<std::int32_t> changed;  ///< whose edges cost something else than they did
 };
 
 template <std::size_t m>
