@@ -387,12 +387,12 @@ std::int64_t decimate_solid(const MeshView &original, const Boundary &boundary, 
                                : begin_with<m>(original, boundary, options, fields.scales, job);
     SolidProgress progress = state ? SolidProgress(state->progress, job.memory)
                                    : SolidProgress(solid.points.size(), solid.tets.size(), job.memory);
-    const std::size_t known = solid.points.size();
+    const std::size_t saved = solid.measures.vertices - solid.points.size();
     SolidDecimator<m> decimator(original, surface, options, fields, std::move(solid), std::move(progress),
                                 keeps_states ? &history.states<m>(job.memory) : nullptr, job);
     decimator.run();
     decimator.write(mesh, origin);
-    return state ? std::int64_t(boundary.interior.size() + surface.points.size() - known) : 0;
+    return std::int64_t(saved);
   });
 }
 

@@ -53,6 +53,7 @@ struct CollapseRoom {
 struct SolidMeasures {
   double least_shape2 = 0;  ///< square of the shape of a tet, below which it is flat
   double volume = 0;
+  std::size_t vertices = 0;
 };
 
 /// How the solid hangs together.
