@@ -145,7 +145,7 @@ TEST_F(DecimateSolid, WithAHistorySameBytesSooner) {
   set_scalars(mesh, waves);
   start_with(mesh);
   std::vector<double> ratios;
-  for (double ratio = 0.9; ratio > 0.01; ratio *= 0.8) ratios.push_back(ratio);
+  for (double ratio = 0.9; ratio > 0.01; ratio *= 0.6) ratios.push_back(ratio);
   std::shuffle(ratios.begin(), ratios.end(), std::mt19937(1));
   SolidHistory history(host.memory);
   std::int64_t saved = 0;
