@@ -172,7 +172,8 @@ typedef struct tetlod_run_report {
                            were, else 0 */
   int64_t reused_triangles; /* boundary_triangles_out where its decimation was, else 0 */
   int64_t reused_samples;   /* samples known to be inside or outside, near or far */
-  int64_t reused_collapses; /* of the solid's edges (TETLOD_EFFORT_ACCURATE), done by a run, or a round, of another size */
+  int64_t
+      reused_collapses; /* of the solid's edges (TETLOD_EFFORT_ACCURATE), done by a run, or a round, of another size */
 } tetlod_run_report;
 
 /* The field error of the last result, as the paper estimates it [4]. Errors are |result - original|, relative to the
