@@ -29,7 +29,8 @@ class Patience {
 
   /// Nobody knows how far a call has got, so the fraction nears one without reaching it.
   void poll(Job &job) const {
-    const double fraction = elapsed() / (elapsed() + expected_);
+    const double gone = elapsed();
+    const double fraction = gone / (gone + expected_);
     job.poll(progress_ ? progress_(fraction) : fraction);
   }
 

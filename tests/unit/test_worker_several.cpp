@@ -8,6 +8,7 @@
 #include <map>
 #include <thread>
 
+#include "patience.hpp"
 #include "worker_fixture.hpp"
 
 namespace tetlod {
@@ -198,6 +199,16 @@ TEST_F(SeveralWorkers, ToldProgressIsEachCallsOwn) {
   EXPECT_EQ(finish(2).size(), 2u);
   EXPECT_GT(told[0], 0.5) << "a tetrahedron takes a millisecond, it is thought";
   EXPECT_GT(told[1], 0.5);
+}
+
+/// The clock goes on while the fraction is worked out; what is told must not go back.
+TEST_F(SeveralWorkers, PatienceTellsNoLessThanBefore) {
+  double told = 0;
+  const Patience patience(0, 1e-3, [&](double fraction) {
+    EXPECT_GE(fraction, told);
+    return told = fraction;
+  });
+  for (int i = 0; i < 1000000 && !HasFailure(); i++) patience.poll(job);
 }
 
 /// A host that forks while calls are under way: they stay the parent's.
