@@ -154,7 +154,7 @@ typedef struct tetlod_run_report {
   int64_t steiner_points;                    /* added by the remeshing [3.4] */
   int64_t points_out, tets_out;
   int64_t remesh_attempts;  /* calls of TetGen for the boundary that was accepted, or the solid of it that took most;
-                               1: it succeeded at once; 0: it was not needed (TETLOD_EFFORT_ACCURATE) */
+                               1: it succeeded at once; 0: it was not needed (TETLOD_OPT_EFFORT) */
   int64_t boundary_retries; /* how often the boundary had to be decimated less, because TetGen failed on it */
   double seconds_prepare, seconds_boundary, seconds_decimate, seconds_sample, seconds_cull, seconds_remesh,
       seconds_values, seconds_total;
@@ -172,8 +172,7 @@ typedef struct tetlod_run_report {
                            were, else 0 */
   int64_t reused_triangles; /* boundary_triangles_out where its decimation was, else 0 */
   int64_t reused_samples;   /* samples known to be inside or outside, near or far */
-  int64_t
-      reused_collapses; /* of the solid's edges (TETLOD_EFFORT_ACCURATE), done by a run, or a round, of another size */
+  int64_t reused_collapses; /* of the solid's edges (TETLOD_OPT_EFFORT), by a run or a round of another size */
 } tetlod_run_report;
 
 /* The field error of the last result, as the paper estimates it [4]. Errors are |result - original|, relative to the
@@ -422,7 +421,7 @@ TETLOD_API tetlod_status tetlod_estimate_memory(tetlod_context *context, uint64_
  *   the boundary's decimation, if lambda, clean-edges and max-deviation are the same as well, as far as it went: a
  *   sigma that is not smaller. With a target ratio or a bound its cost sees the field: then only for the same
  *   values;
- *   where edges of the solid collapse (TETLOD_EFFORT_ACCURATE) and the values, their weights and the flags are the
+ *   where edges of the solid collapse (TETLOD_OPT_EFFORT) and the values, their weights and the flags are the
  *   same, without max-deviation: what other sizes have in common with this one, whichever came first;
  *   what culling found of each sample, if sigma, min-distance and boundary-leaf are also those of the last run.
  * The same means the same contents (by a fingerprint of 128 bits, taken anew in every run) in the same layout: arrays
@@ -431,7 +430,7 @@ TETLOD_API tetlod_status tetlod_estimate_memory(tetlod_context *context, uint64_
  *
  * Guarantees of a result: every tet has a positive volume, every face is used by one or two tets, the boundary is
  * closed, does not cross itself and has the components and the Euler characteristic of the original's, every value lies
- * within the original's range. Where edges collapse (TETLOD_EFFORT_ACCURATE) the volume changes by 1 % at most.
+ * within the original's range. Where edges of the solid collapse (TETLOD_OPT_EFFORT) the volume changes by 1 % at most.
  * Boundary vertices come first, then samples (each an original vertex with its value), then Steiner points; with a
  * target ratio, boundary vertices, then all others. */
 TETLOD_API tetlod_status tetlod_run(tetlod_context *context);

@@ -91,15 +91,8 @@ class SolidDecimator {
       origin.push_back(moved ? -1 : std::int32_t(i));
     }
     job_.poll(1);
-    const auto append = [&](const auto &simplices, auto &to) {
-      for (auto simplex : simplices) {
-        if (simplex[0] < 0) continue;
-        for (std::int32_t &v : simplex) v = number[std::size_t(v)];
-        to.push_back(simplex);
-      }
-    };
-    append(mesh_.tets, out.tets);
-    append(mesh_.triangles, out.boundary);
+    append_left(mesh_.tets, number, out.tets);
+    append_left(mesh_.triangles, number, out.boundary);
   }
 
  private:
@@ -228,8 +221,9 @@ class SolidDecimator {
   /// What is left moves together, so that it is near in memory.
   void close_gaps() {
     progress_.next_closing = count_ / 2;
-    progress_.close_gaps(left_, job_.memory);
-    SolidRemains<m> remains = mesh_.take_remains(left_, job_);
+    const Array<std::int32_t> number = numbers_of(left_, mesh_.points.size(), job_.memory);
+    progress_.close_gaps(left_, number);
+    SolidRemains<m> remains = mesh_.take_remains(left_, number, job_);
     for (CollapseRoom &room : rooms_) room.clear();
     keep_state(remains);
     mesh_ = SolidMesh<m>(std::move(remains), job_);

@@ -130,8 +130,8 @@ class Locator {
     while (!mesh.alive(start_)) start_++;
     Array<Box> boxes(mesh.tets.size(), &job.memory);
     frames_.reserve(mesh.tets.size());
-    for (std::size_t first = 0; first < mesh.tets.size();
-         first += many) {  // to touch all at once takes as long as 50 ms
+    // Some at a time: to touch the room for all at once takes as long as 50 ms.
+    for (std::size_t first = 0; first < mesh.tets.size(); first += many) {
       const std::size_t count = std::min(many, mesh.tets.size() - first);
       frames_.resize(first + count);
       job.parallel.for_blocks(count, block, [&](std::size_t begin, std::size_t end) {

@@ -4,7 +4,7 @@
 //                                           are finite
 //   the decimation                          that, lambda, clean-edges, max-deviation, and the field if its cost sees it
 //   the history of collapses                the original, its values and how they count
-//   verdicts                                the decimation, how far the decimation went, min-distance, boundary-leaf
+//   verdicts                                the decimation and how far it went, min-distance, boundary-leaf
 // What it depends on is compared by fingerprints, so that arrays may be changed in place, or submitted anew unchanged.
 // Whatever is taken over has the bytes that a run without it would make.
 #pragma once

@@ -15,7 +15,19 @@ enum class Rank : std::uint8_t {
   touching  ///< on the boundary, where the solid touches itself: none of its edges collapses
 };
 
-/// Those of the vertices `left`, which get the numbers from 0 on.
+/// Appends those that are not gone, with the new numbers of their vertices.
+template <class Simplex>
+void append_left(const Array<Simplex> &simplices, Span<const std::int32_t> number, Array<Simplex> &to) {
+  const auto is_left = [](const Simplex &simplex) { return simplex[0] >= 0; };
+  to.reserve(to.size() + std::size_t(std::count_if(simplices.begin(), simplices.end(), is_left)));
+  for (Simplex simplex : simplices) {
+    if (!is_left(simplex)) continue;
+    for (std::int32_t &v : simplex) v = number[std::size_t(v)];
+    to.push_back(simplex);
+  }
+}
+
+/// Those of the vertices `left` alone.
 template <class T>
 void keep_alone(Span<const std::int32_t> left, Array<T> &of_vertices) {
   Array<T> kept(of_vertices.get_allocator());
@@ -24,7 +36,7 @@ void keep_alone(Span<const std::int32_t> left, Array<T> &of_vertices) {
   of_vertices = std::move(kept);
 }
 
-/// The new number of each vertex; -1: it is not left.
+/// The new number of each vertex, from 0 on in the order of `left`; -1: it is not left.
 inline Array<std::int32_t> numbers_of(Span<const std::int32_t> left, std::size_t vertices, Memory &memory) {
   Array<std::int32_t> numbers(vertices, -1, &memory);
   for (std::size_t i = 0; i < left.size(); i++) numbers[std::size_t(left[i])] = std::int32_t(i);

@@ -9,18 +9,6 @@ namespace {
 /// Where nothing is lost, short edges first: what the square of a length counts as.
 constexpr double shape_share = 1e-6;
 
-/// Those that are not gone, with the new numbers of their vertices.
-template <class Simplex>
-void keep_left(Span<const std::int32_t> number, Array<Simplex> &simplices) {
-  const auto is_left = [](const Simplex &simplex) { return simplex[0] >= 0; };
-  Array<Simplex> left(simplices.get_allocator());
-  left.reserve(std::size_t(std::count_if(simplices.begin(), simplices.end(), is_left)));
-  std::copy_if(simplices.begin(), simplices.end(), std::back_inserter(left), is_left);
-  for (Simplex &simplex : left)
-    for (std::int32_t &v : simplex) v = number[std::size_t(v)];
-  simplices = std::move(left);
-}
-
 template <class Vertices>
 Array<Vec3> points_of(const Vertices &vertices, Memory &memory) {
   Array<Vec3> points(&memory);
@@ -62,22 +50,20 @@ SolidMesh<m>::SolidMesh(SolidRemains<m> &&remains, Job &job)
       vertices_(std::move(remains.vertices)) {}
 
 template <std::size_t m>
-SolidRemains<m> SolidMesh<m>::take_remains(Span<const std::int32_t> left, Job &job) {
+SolidRemains<m> SolidMesh<m>::take_remains(Span<const std::int32_t> left, Span<const std::int32_t> number, Job &job) {
   for (StarLists *lists : {&tets_of, &triangles_of, &neighbours}) *lists = StarLists(0, job);  // first, to make room
-  const Array<std::int32_t> number = numbers_of(left, points.size(), job.memory);
   points = Array<Vec3>(&job.memory);
   keep_alone(left, origin);
   keep_alone(left, ranks);
   keep_alone(left, vertices_);
-  keep_left(number, tets);
-  keep_left(number, triangles);
   SolidRemains<m> remains(job.memory);
   remains.measures = measures;
   remains.origin = std::move(origin);
   remains.ranks = std::move(ranks);
   remains.vertices = std::move(vertices_);
-  remains.tets = std::move(tets);
-  remains.triangles = std::move(triangles);
+  append_left(tets, number, remains.tets);
+  tets = Array<Tet>(&job.memory);
+  append_left(triangles, number, remains.triangles);
   return remains;
 }
 

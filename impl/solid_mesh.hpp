@@ -5,7 +5,7 @@
 
 namespace tetlod {
 
-/// Of m fields that steer.
+/// Of m fields that steer, as all here.
 template <std::size_t m>
 struct SolidVertex {
   Vector<3 + m> place{};  ///< x, y, z, and the values as lengths
@@ -54,12 +54,12 @@ class SolidMesh : public SolidComplex {
   SolidMesh(SolidInOrder solid, Span<const Values<m>> values, const Values<m> &scales, Job &job);
   SolidMesh(SolidRemains<m> &&remains, Job &job);
 
-  /// What is left, taken out of the mesh, of which nothing else stays; its vertices, ascending, get the numbers from 0
-  /// on.
-  SolidRemains<m> take_remains(Span<const std::int32_t> left, Job &job);
+  /// What is left, taken out of the mesh, which is of no use after that. number: numbers_of(left).
+  SolidRemains<m> take_remains(Span<const std::int32_t> left, Span<const std::int32_t> number, Job &job);
 
   Array<std::int32_t> origin;  ///< the original vertex of each one
 
+  /// Of collapsing the edge; infinite where neither end may go.
   BestOfEdge cost(std::int32_t v, std::int32_t u) const;
 
   const Vertex &vertex(std::int32_t v) const { return vertices_[std::size_t(v)]; }

@@ -21,8 +21,7 @@ SolidProgress::SolidProgress(const SolidProgress &of, Memory &memory)
       moved(of.moved, &memory),
       changed(of.changed, &memory) {}
 
-void SolidProgress::close_gaps(Span<const std::int32_t> left, Memory &memory) {
-  const Array<std::int32_t> number = numbers_of(left, moved.size(), memory);
+void SolidProgress::close_gaps(Span<const std::int32_t> left, Span<const std::int32_t> number) {
   const auto renumber = [&](std::int32_t &v) { v = v < 0 ? v : number[std::size_t(v)]; };
   keep_alone(left, cheapest);
   keep_alone(left, moved);

@@ -24,9 +24,10 @@ struct SolidProgress {
   std::size_t bytes() const {
     return cheapest.size() * (sizeof(CheapestEdge) + sizeof(int)) + changed.size() * sizeof(std::int32_t);
   }
-  /// The vertices that are left, ascending, get the numbers from 0 on.
-  void close_gaps(Span<const std::int32_t> left, Memory &memory);
+  /// Of the vertices that are left alone. number: numbers_of(left).
+  void close_gaps(Span<const std::int32_t> left, Span<const std::int32_t> number);
 
+  /// For larger targets the round that is done would have been another one.
   void allow(double target) { largest_target = std::min(largest_target, std::int64_t(std::floor(target))); }
 
   int round = 0;
