@@ -15,7 +15,8 @@ constexpr double margin = 1e-3;
 /// A vertex as near as this to a face or an edge goes onto it, or the value across it would be another; less near,
 /// where that is not enough.
 constexpr double snaps[] = {1e-4, 1e-6, 1e-9};
-/// So near to a corner a vertex is that corner; less near, where no other way is left.
+/// So near to a corner a vertex is that corner; less near, the corner gets its values, if it has none of another: a
+/// vertex beside a corner that is wrong would make the field steep.
 constexpr double at_corner = 1e-6, near_corner = 1e-3;
 /// Flatter tets than elsewhere are taken, for the bound's sake.
 constexpr double flattest = 1e-11;
@@ -84,15 +85,15 @@ class Bound {
   }
 
   bool serve(std::int32_t t, const Probe<m> probe) {
-    if (const std::int32_t corner = corner_at(mesh_, t, probe.point, at_corner); corner >= 0)
-      return give_values(corner, probe.value);
+    const std::int32_t corner = corner_at(mesh_, t, probe.point, near_corner);
+    if (corner >= 0 && give_values(corner, probe.value)) return true;
+    if (corner >= 0 && corner_at(mesh_, t, probe.point, at_corner) >= 0) return false;
     for (double snap : snaps)
       if (insert_vertex(t, probe.point, probe.value, snap, flattest, mesh_)) {
         mesh_.kept.back() = held;
         return true;
       }
-    const std::int32_t corner = corner_at(mesh_, t, probe.point, near_corner);
-    return corner >= 0 && give_values(corner, probe.value);
+    return false;
   }
 
   /// The original's there. Once a vertex has been given its values it is not given others.

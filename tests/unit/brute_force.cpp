@@ -24,6 +24,8 @@ Point along(const Point &a, const Point &b, Real t) {
   return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])};
 }
 
+Real volume6(const Point *p) { return dot(minus(p[3], p[0]), cross(minus(p[1], p[0]), minus(p[2], p[0]))); }
+
 std::array<Point, 3> corners(Span<const Vec3> points, const Triangle &t) {
   return {to_point(points[std::size_t(t[0])]), to_point(points[std::size_t(t[1])]),
           to_point(points[std::size_t(t[2])])};
@@ -173,6 +175,31 @@ BruteNearest brute_nearest(Span<const Vec3> points, Span<const Triangle> triangl
   }
   best.distance = double(std::sqrt(std::max(least, Real(0))));
   return best;
+}
+
+double brute_largest_error(const Mesh &original, const TetMesh &mesh) {
+  constexpr double near = 1e-6;
+  std::vector<double> least(original.points.size(), -near), error(original.points.size(), 0);
+  for (const Tet &t : mesh.tets) {
+    Point corner[4];
+    for (std::size_t k = 0; k < 4; k++) corner[k] = to_point(mesh.points[std::size_t(t[k])]);
+    const Real whole = volume6(corner);
+    for (std::size_t v = 0; v < least.size(); v++) {
+      Real lowest = 1, value = 0;
+      for (std::size_t k = 0; k < 4; k++) {
+        Point moved[4] = {corner[0], corner[1], corner[2], corner[3]};
+        moved[k] = to_point(original.points[v]);
+        const Real weight = volume6(moved) / whole;
+        lowest = std::min(lowest, weight);
+        value += weight * Real(mesh.scalars[std::size_t(t[k])]);
+      }
+      if (!(lowest > Real(least[v]))) continue;
+      least[v] = double(lowest);
+      error[v] = std::abs(double(value) - original.scalars[v]);
+    }
+  }
+  const auto [low, high] = std::minmax_element(original.scalars.begin(), original.scalars.end());
+  return *std::max_element(error.begin(), error.end()) / (*high - *low);
 }
 
 }  // namespace tetlod::test

@@ -44,4 +44,8 @@ struct BruteNearest {
 };
 BruteNearest brute_nearest(Span<const Vec3> points, Span<const Triangle> triangles, const Vec3 &p);
 
+/// Of a mesh's values at the original's vertices, each in the tet that it is least outside of, by at most 1e-6 of a
+/// weight; over the original's range.
+double brute_largest_error(const Mesh &original, const TetMesh &mesh);
+
 }  // namespace tetlod::test
