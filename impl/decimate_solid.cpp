@@ -69,11 +69,13 @@ class SolidDecimator {
     for (double limit; count_ > target_ && (limit = limit_of_round()) < infinity;) {
       job_.poll(1 - double(count_ - target_) / surplus);
       collapse_some(limit);
-      mesh_.tidy({rooms_.data(), rooms_.size()});
       drop_gone(left_);
       drop_gone(progress_.changed);
       progress_.round++;
-      if (states_ && count_ < progress_.next_closing && count_ > target_) close_gaps();
+      if (states_ && count_ < progress_.next_closing && count_ > target_)
+        close_gaps();
+      else
+        mesh_.tidy({rooms_.data(), rooms_.size()});
     }
   }
 
@@ -111,7 +113,7 @@ class SolidDecimator {
 
   Values<m> values_of(std::int32_t v) const {
     Values<m> values;
-    for (std::size_t i = 0; i < m; i++) values[i] = mesh_.vertex(v).place[3 + i] / fields_.scales[i];
+    for (std::size_t i = 0; i < m; i++) values[i] = mesh_.vertex(v).lengths[i] / fields_.scales[i];
     return fields_.range.clamp(values);
   }
 
@@ -222,8 +224,8 @@ class SolidDecimator {
   void close_gaps() {
     progress_.next_closing = count_ / 2;
     const Array<std::int32_t> number = numbers_of(left_, mesh_.points.size(), job_.memory);
-    progress_.close_gaps(left_, number);
     SolidRemains<m> remains = mesh_.take_remains(left_, number, job_);
+    progress_.close_gaps(left_, number);
     for (CollapseRoom &room : rooms_) room.clear();
     keep_state(remains);
     mesh_ = SolidMesh<m>(std::move(remains), job_);
@@ -288,13 +290,13 @@ class SolidDecimator {
   /// The best place near the edge, or, where that is none, the best along it.
   bool find_place(double t, SolidCollapse<m> &collapse) {
     const SolidEdge &edge = collapse.edge;
-    const auto &stays = mesh_.vertex(edge.stays), &gone = mesh_.vertex(edge.gone);
-    const Place d = minus(gone.place, stays.place), best = along(stays.place, t, d);
+    const Place stays = mesh_.place(edge.stays), gone = mesh_.place(edge.gone);
+    const Place d = minus(gone, stays), best = along(stays, t, d);
     StepConstraint constraint;
     if (collapse.of_boundary) constraint = keeping_volume(mesh_, edge, point_of(best));
     if (!mesh_.keeps_place(edge.stays, edge.gone)) {
-      LocalQuadric<3 + m> sum = stays.quadric.moved(minus(best, stays.place));
-      sum.add(gone.quadric.moved(minus(best, gone.place)));
+      LocalQuadric<3 + m> sum = mesh_.vertex(edge.stays).quadric.moved(minus(best, stays));
+      sum.add(mesh_.vertex(edge.gone).quadric.moved(minus(best, gone)));
       Place step;
       if (step_to_least(sum, constraint, step) && is_short(step, d) && suits(along(best, 1, step), collapse))
         return true;

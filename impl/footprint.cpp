@@ -16,17 +16,31 @@ namespace {
 
 // Of decimation and of what a result is made from.
 constexpr double bytes_a_triangle = 530, bytes_a_result_point = 360;
+// Of a boundary whose decimation sees the field, beside these; and for each field more.
+constexpr double quadric_a_triangle = 90, values_a_triangle = 9;
+// Where the solid's edges collapse, the boundary is decimated only if that leads to no sound mesh: between the two.
+constexpr double seldom_a_triangle = 490, seldom_values_a_triangle = 5;
 // Of a run with a target: neighbours, frames or normal equations, and room to grow.
 constexpr double bytes_a_refined_tet = 275, bytes_a_refined_point = 70, bytes_a_probe = sizeof(Probe<1>) + 8;
 // Of these for each field more that steers.
-constexpr double values_a_refined_tet = 6, values_a_refined_point = 7, values_a_solid_point = 8;
+constexpr double values_a_refined_tet = 2, values_a_refined_point = 7, values_a_solid_point = 8;
 // Of the original while its edges collapse.
-constexpr double bytes_a_solid_tet = 74, bytes_a_solid_point = 225, bytes_of_collapses = 2e5;
+constexpr double bytes_a_solid_tet = 58, bytes_a_solid_point = 225, bytes_of_collapses = 2e5;
 // Of a field: original vertices are held by many tets, the centroids of cells by one.
 constexpr double bytes_a_located_point = 400, bytes_a_located_cell = 190, bytes_a_stencil = 48;
 
 /// Of a result, and of what it is written to.
 double bytes_of_result(const Outlook &outlook) { return 32 * outlook.points + 16 * outlook.tets; }
+
+double bytes_of_decimation(const Outlook &outlook) {
+  const double more = sizeof(double) * (outlook.fields - 1);
+  double a_triangle = bytes_a_triangle;
+  if (outlook.solid_tets > 0)
+    a_triangle = seldom_a_triangle + seldom_values_a_triangle * more;
+  else if (outlook.probes > 0)
+    a_triangle += quadric_a_triangle + values_a_triangle * more;
+  return a_triangle * outlook.boundary_triangles;
+}
 
 double bytes_of_fields(const Outlook &outlook, const Input &input) {
   double values = 0;
@@ -113,8 +127,8 @@ double expected_bytes(const Outlook &outlook, const Input &input) {
                                       (bytes_a_solid_point + values_a_solid_point * more) * outlook.solid_points +
                                       bytes_of_collapses
                                 : 0;
-  return std::max({bytes_a_triangle * outlook.boundary_triangles, collapsing, bytes_a_result_point * outlook.points,
-                   refining, input.fields.empty() ? 0 : bytes_of_fields(outlook, input)});
+  return std::max({bytes_of_decimation(outlook), collapsing, bytes_a_result_point * outlook.points, refining,
+                   input.fields.empty() ? 0 : bytes_of_fields(outlook, input)});
 }
 
 double share_away(Span<const Vec3> points, Span<const Triangle> boundary, Span<const std::int32_t> samples,

@@ -9,14 +9,6 @@ namespace {
 /// Where nothing is lost, short edges first: what the square of a length counts as.
 constexpr double shape_share = 1e-6;
 
-template <class Vertices>
-Array<Vec3> points_of(const Vertices &vertices, Memory &memory) {
-  Array<Vec3> points(&memory);
-  points.reserve(vertices.size());
-  for (const auto &vertex : vertices) points.push_back(point_of(vertex.place));
-  return points;
-}
-
 }  // namespace
 
 template <std::size_t m>
@@ -37,14 +29,13 @@ SolidMesh<m>::SolidMesh(SolidInOrder solid, Span<const Values<m>> values, const 
       origin(std::move(solid.origin)),
       vertices_(points.size(), Vertex(), &job.memory) {
   for (std::size_t v = 0; v < vertices_.size(); v++)
-    for (std::size_t i = 0; i < 3 + m; i++)
-      vertices_[v].place[i] = i < 3 ? points[v][int(i)] : scales[i - 3] * values[std::size_t(origin[v])][i - 3];
+    for (std::size_t i = 0; i < m; i++) vertices_[v].lengths[i] = scales[i] * values[std::size_t(origin[v])][i];
   find_quadrics(job);
 }
 
 template <std::size_t m>
 SolidMesh<m>::SolidMesh(SolidRemains<m> &&remains, Job &job)
-    : SolidComplex(points_of(remains.vertices, job.memory), std::move(remains.ranks), std::move(remains.tets),
+    : SolidComplex(std::move(remains.points), std::move(remains.ranks), std::move(remains.tets),
                    std::move(remains.triangles), remains.measures, job),
       origin(std::move(remains.origin)),
       vertices_(std::move(remains.vertices)) {}
@@ -52,13 +43,14 @@ SolidMesh<m>::SolidMesh(SolidRemains<m> &&remains, Job &job)
 template <std::size_t m>
 SolidRemains<m> SolidMesh<m>::take_remains(Span<const std::int32_t> left, Span<const std::int32_t> number, Job &job) {
   for (StarLists *lists : {&tets_of, &triangles_of, &neighbours}) *lists = StarLists(0, job);  // first, to make room
-  points = Array<Vec3>(&job.memory);
   keep_alone(left, origin);
+  keep_alone(left, points);
   keep_alone(left, ranks);
   keep_alone(left, vertices_);
   SolidRemains<m> remains(job.memory);
   remains.measures = measures;
   remains.origin = std::move(origin);
+  remains.points = std::move(points);
   remains.ranks = std::move(ranks);
   remains.vertices = std::move(vertices_);
   append_left(tets, number, remains.tets);
@@ -73,8 +65,8 @@ typename SolidMesh<m>::Gradients SolidMesh<m>::gradients(const Tet &t) const {
   const TetFrame frame(point(t[0]), point(t[1]), point(t[2]), point(t[3]));
   Gradients all;
   for (std::size_t i = 0; i < m; i++) {
-    const Vec3 g = frame.gradient(vertex(t[0]).place[3 + i], vertex(t[1]).place[3 + i], vertex(t[2]).place[3 + i],
-                                  vertex(t[3]).place[3 + i]);
+    const Vec3 g = frame.gradient(vertex(t[0]).lengths[i], vertex(t[1]).lengths[i], vertex(t[2]).lengths[i],
+                                  vertex(t[3]).lengths[i]);
     all[i] = std::isfinite(g.x + g.y + g.z) ? g : Vec3(0);
   }
   return all;
@@ -92,35 +84,40 @@ double SolidMesh<m>::weight_of_planes() const {
 
 template <std::size_t m>
 void SolidMesh<m>::find_quadrics(Job &job) {
-  Array<Gradients> of_tets(tets.size(), &job.memory);
-  job.parallel.for_blocks(tets.size(), 1024, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; t++) of_tets[t] = gradients(tets[t]);
-    job.poll(0);
-  });
+  constexpr std::size_t parts = 8;  // each has to look at every tet
   const double weight = weight_of_planes();
-  job.parallel.for_blocks(vertices_.size(), 256, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t v = begin; v < end; v++) vertices_[v].quadric = quadric_of(std::int32_t(v), of_tets, weight);
-    job.poll(0);
+  job.parallel.for_blocks(vertices_.size(), vertices_.size() / parts + 1, [&](std::size_t begin, std::size_t end) {
+    add_tets(begin, end, job);
+    for (std::size_t v = begin; v < end; v++) add_planes(std::int32_t(v), weight);
   });
 }
 
+/// To the quadrics of the vertices begin to end.
 template <std::size_t m>
-LocalQuadric<3 + m> SolidMesh<m>::quadric_of(std::int32_t v, Span<const Gradients> gradients,
-                                             double weight_of_planes) const {
-  LocalQuadric<3 + m> quadric;
-  for (std::int32_t t : tets_of.of(v))
+void SolidMesh<m>::add_tets(std::size_t begin, std::size_t end, Job &job) {
+  const auto is_among = [&](std::int32_t v) { return std::size_t(v) - begin < end - begin; };
+  for (std::size_t t = 0; t < tets.size(); t++) {
+    if (t % 65536 == 0) job.poll(0);
+    const Tet &tet = tets[t];
+    if (!(is_among(tet[0]) | is_among(tet[1]) | is_among(tet[2]) | is_among(tet[3]))) continue;
+    const Gradients gradient = gradients(tet);
     for (std::size_t i = 0; i < m; i++) {
-      const Vec3 &g = gradients[std::size_t(t)][i];
-      Place upright{-g.x, -g.y, -g.z};
+      Place upright{-gradient[i].x, -gradient[i].y, -gradient[i].z};
       upright[3 + i] = 1;
-      quadric.add_square(upright, 1);
+      for (std::int32_t v : tet)
+        if (is_among(v)) vertices_[std::size_t(v)].quadric.add_square(upright, 1);
     }
+  }
+}
+
+/// Of the boundary's triangles at v.
+template <std::size_t m>
+void SolidMesh<m>::add_planes(std::int32_t v, double weight) {
   for (std::int32_t t : triangles_of.of(v)) {
     const Vec3 n = normal(t);
     const double length = glm::length(n);
-    if (length > 0) quadric.add_square({n.x / length, n.y / length, n.z / length}, weight_of_planes);
+    if (length > 0) vertices_[std::size_t(v)].quadric.add_square({n.x / length, n.y / length, n.z / length}, weight);
   }
-  return quadric;
 }
 
 template <std::size_t m>
@@ -128,7 +125,7 @@ BestOfEdge SolidMesh<m>::cost(std::int32_t v, std::int32_t u) const {
   const auto [stays, gone] = ends_of(v, u);
   if (!may_go(gone) || rank(stays) == Rank::touching) return {0, std::numeric_limits<double>::infinity()};
   const Vertex &a = vertex(stays), &b = vertex(gone);
-  const Place d = minus(b.place, a.place);
+  const Place d = minus(place(gone), place(stays));
   BestOfEdge best = best_of_edge(a.quadric, b.quadric, d, keeps_place(stays, gone));
   constexpr std::size_t tets_of_vertex = entry_of(3, 3);
   best.cost += shape_share * length2(point_of(d)) * (a.quadric.a[tets_of_vertex] + b.quadric.a[tets_of_vertex]);
@@ -136,13 +133,12 @@ BestOfEdge SolidMesh<m>::cost(std::int32_t v, std::int32_t u) const {
 }
 
 template <std::size_t m>
-void SolidMesh<m>::collapse(const SolidEdge &edge, const Place &place, CollapseRoom &room) {
+void SolidMesh<m>::collapse(const SolidEdge &edge, const Place &to, CollapseRoom &room) {
   Vertex &stays = vertices_[std::size_t(edge.stays)];
-  const Vertex &gone = vertex(edge.gone);
-  LocalQuadric<3 + m> sum = stays.quadric.moved(minus(place, stays.place));
-  sum.add(gone.quadric.moved(minus(place, gone.place)));
-  stays = {place, sum};
-  SolidComplex::collapse(edge, point_of(place), room);
+  stays.quadric = stays.quadric.moved(minus(to, place(edge.stays)));
+  stays.quadric.add(vertex(edge.gone).quadric.moved(minus(to, place(edge.gone))));
+  std::copy(to.begin() + 3, to.end(), stays.lengths.begin());
+  SolidComplex::collapse(edge, point_of(to), room);
 }
 
 template struct FieldsAsLengths<1>;

@@ -8,7 +8,7 @@ namespace tetlod {
 /// Of m fields that steer, as all here.
 template <std::size_t m>
 struct SolidVertex {
-  Vector<3 + m> place{};  ///< x, y, z, and the values as lengths
+  Vector<m> lengths{};  ///< the values as lengths
   LocalQuadric<3 + m> quadric;
 };
 
@@ -24,19 +24,21 @@ struct FieldsAsLengths {
 template <std::size_t m>
 struct SolidRemains {
   explicit SolidRemains(Memory &memory)
-      : origin(&memory), ranks(&memory), vertices(&memory), tets(&memory), triangles(&memory) {}
+      : origin(&memory), points(&memory), ranks(&memory), vertices(&memory), tets(&memory), triangles(&memory) {}
   SolidRemains(const SolidRemains &of, Memory &memory)
       : origin(of.origin, &memory),
+        points(of.points, &memory),
         ranks(of.ranks, &memory),
         vertices(of.vertices, &memory),
         tets(of.tets, &memory),
         triangles(of.triangles, &memory),
         measures(of.measures) {}
   std::size_t bytes() const {
-    return vertices.size() * (sizeof(SolidVertex<m>) + sizeof(std::int32_t) + sizeof(Rank)) +
+    return vertices.size() * (sizeof(SolidVertex<m>) + sizeof(Vec3) + sizeof(std::int32_t) + sizeof(Rank)) +
            tets.size() * sizeof(Tet) + triangles.size() * sizeof(Triangle);
   }
   Array<std::int32_t> origin;
+  Array<Vec3> points;
   Array<Rank> ranks;
   Array<SolidVertex<m>> vertices;
   Array<Tet> tets;
@@ -63,16 +65,24 @@ class SolidMesh : public SolidComplex {
   BestOfEdge cost(std::int32_t v, std::int32_t u) const;
 
   const Vertex &vertex(std::int32_t v) const { return vertices_[std::size_t(v)]; }
+  /// x, y, z, and the values as lengths.
+  Place place(std::int32_t v) const {
+    const Vec3 &p = point(v);
+    Place place{p.x, p.y, p.z};
+    for (std::size_t i = 0; i < m; i++) place[3 + i] = vertex(v).lengths[i];
+    return place;
+  }
 
-  /// The end that goes becomes the one that stays, which comes to be at `place`, with the quadrics of both.
-  void collapse(const SolidEdge &edge, const Place &place, CollapseRoom &room);
+  /// The end that goes becomes the one that stays, which comes to be at `to`, with the quadrics of both.
+  void collapse(const SolidEdge &edge, const Place &to, CollapseRoom &room);
 
  private:
   using Gradients = std::array<Vec3, m>;
   Gradients gradients(const Tet &t) const;
   double weight_of_planes() const;
   void find_quadrics(Job &job);
-  LocalQuadric<3 + m> quadric_of(std::int32_t v, Span<const Gradients> gradients, double weight_of_planes) const;
+  void add_tets(std::size_t begin, std::size_t end, Job &job);
+  void add_planes(std::int32_t v, double weight);
 
   Array<Vertex> vertices_;
 };
