@@ -166,8 +166,8 @@ typedef struct tetlod_run_report {
   double max_error;     /* with TETLOD_OPT_TARGET_RATIO or _MAX_ERROR: largest error at the original vertices, over the
                            range, of any field that steers; those outside the result count with
                            TETLOD_OPT_MAX_ERROR alone */
-  double max_deviation; /* largest distance of a boundary vertex, of the original or of the result, from the other's
-                           boundary, over the diagonal of the bounding box */
+  double max_deviation; /* largest distance of a boundary vertex, of the original or the result, from the other's
+                           boundary, over the diagonal; with TETLOD_OPT_MAX_DEVIATION, of what that is measured at */
   int64_t reused_tets;  /* taken over from earlier runs, see tetlod_run: tets_in where the mesh's checks and boundary
                            were, else 0 */
   int64_t reused_triangles; /* boundary_triangles_out where its decimation was, else 0 */
@@ -329,8 +329,8 @@ enum {
                                    and takes what it needs beyond it; 0, the default: none. Where it cannot be held:
                                    TETLOD_ERR_MAX_ERROR */
   TETLOD_OPT_MAX_DEVIATION = 23 /* real, "max-deviation": bound of the distance between the boundaries of original and
-                                   result, measured at the vertices of both, as a fraction of the diagonal; more of the
-                                   boundary is kept then than sigma or the target ratio says. 0, the default: none */
+                                   result, at vertices and middles of edges and triangles of both, as a fraction of the
+                                   diagonal; more of the boundary is kept than asked for. 0, the default: none */
 };
 enum { TETLOD_EFFORT_FAST = 1, TETLOD_EFFORT_ACCURATE = 2 };
 enum { TETLOD_POLICY_ERROR = 0, TETLOD_POLICY_REPAIR = 1 };

@@ -14,7 +14,7 @@ struct DecimateOptions {
   double sigma = 0.1;        ///< edges kept, fraction of the surface's
   double lambda = 0.1;       ///< shape optimization weight
   double clean_edges = 0;    ///< edges shorter than this fraction of the diagonal are collapsed first
-  double max_deviation = 0;  ///< distance between the boundaries, measured at the vertices of both; 0: no limit
+  double max_deviation = 0;  ///< distance between the boundaries, at all Samples of both; 0: no limit
   std::array<double, most_fields> field_weight{};  ///< length that a unit of each field counts as; 0, of the first:
                                                    ///< the paper's cost, which sees none
   bool careful = true;  ///< no collapse makes the surface cross itself; else that is for the caller to find out
@@ -25,7 +25,7 @@ struct DecimateOptions {
 struct DecimateReport {
   std::int64_t edges_in = 0, edges_out = 0;  ///< of the cut surface
   std::int64_t cleaned_edges = 0;
-  double deviation = 0;  ///< between the surfaces, at the vertices of both
+  double deviation = 0;  ///< between the surfaces, at samples_for() the limit
 };
 
 /// `topology` is the surface's own. Collapses edges of `surface`, lowest cost first, until at most sigma of its edges

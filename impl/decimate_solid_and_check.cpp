@@ -61,7 +61,8 @@ std::string decimate_solid_and_check(const MeshView &original, const Boundary &b
   options.touching = touching;
   coarse.reused = decimate_solid(original, boundary, surface, options, history, job, coarse.mesh, coarse.origin);
   const std::string wrong = check(options, topology, original.fields, job, coarse);
-  if (wrong.empty()) coarse.deviation = largest_deviation(surface, coarse.surface, job);
+  if (wrong.empty())
+    coarse.deviation = largest_deviation(surface, coarse.surface, samples_for(options.max_deviation), job);
   return wrong;
 }
 

@@ -14,7 +14,7 @@ struct CoarseSolid {
   Surface surface;             ///< the boundary with points of its own
   SurfaceTopology topology;    ///< of that
   std::int64_t reused = 0;     ///< collapses that decimate_solid's history saved
-  double deviation = 0;        ///< between the boundaries, at the vertices of both
+  double deviation = 0;        ///< between the boundaries, at samples_for() the limit
 };
 
 /// decimate_solid. `surface` is the original's boundary, `topology` that of it; options.touching is found from them.

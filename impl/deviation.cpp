@@ -1,5 +1,7 @@
 #include "deviation.hpp"
 
+#include <utility>
+
 namespace tetlod {
 
 namespace {
@@ -7,12 +9,32 @@ namespace {
 constexpr std::int64_t leaf = 4;
 constexpr std::size_t block = 256;
 
-double largest_distance(const Surface &from, const Surface &to, Job &job) {
+/// visit(point, triangle), the triangle being one of those that have the point.
+template <class Visit>
+void for_samples(const Surface &surface, Samples samples, Memory &memory, const Visit &visit) {
+  Array<std::uint8_t> seen(surface.points.size(), 0, &memory);
+  for (std::size_t t = 0; t < surface.triangles.size(); t++) {
+    const Triangle &triangle = surface.triangles[t];
+    Vec3 corner[3];
+    for (std::size_t k = 0; k < 3; k++) {
+      corner[k] = surface.points[std::size_t(triangle[k])];
+      if (!std::exchange(seen[std::size_t(triangle[k])], std::uint8_t(1))) visit(corner[k], t);
+    }
+    if (samples == Samples::vertices) continue;
+    visit((corner[0] + corner[1] + corner[2]) / 3.0, t);
+    for (std::size_t k = 0; k < 3; k++)  // of the two triangles at an edge one has it this way
+      if (triangle[k] < triangle[(k + 1) % 3]) visit(0.5 * (corner[k] + corner[(k + 1) % 3]), t);
+  }
+}
+
+double largest_distance(const Surface &from, const Surface &to, Samples samples, Job &job) {
   const NearestTriangle nearest(to.points, to.triangles, leaf, job);
-  Array<double> largest((from.points.size() + block - 1) / block, 0.0, &job.memory);
-  job.parallel.for_blocks(from.points.size(), block, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t v = begin; v < end; v++)
-      largest[begin / block] = std::max(largest[begin / block], nearest.nearest(from.points[v]).distance);
+  Array<Vec3> points(&job.memory);
+  for_samples(from, samples, job.memory, [&](const Vec3 &p, std::size_t) { points.push_back(p); });
+  Array<double> largest((points.size() + block - 1) / block, 0.0, &job.memory);
+  job.parallel.for_blocks(points.size(), block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; i++)
+      largest[begin / block] = std::max(largest[begin / block], nearest.nearest(points[i]).distance);
     job.poll(1);
   });
   return largest.empty() ? 0 : *std::max_element(largest.begin(), largest.end());
@@ -35,45 +57,44 @@ std::size_t near_spoke(const Star &star, std::size_t first, const Vec3 &p, doubl
 
 }  // namespace
 
-double largest_deviation(const Surface &a, const Surface &b, Job &job) {
-  return std::max(largest_distance(a, b, job), largest_distance(b, a, job));
+double largest_deviation(const Surface &a, const Surface &b, Samples samples, Job &job) {
+  return std::max(largest_distance(a, b, samples, job), largest_distance(b, a, samples, job));
 }
 
 DeviationLimit::DeviationLimit(const Surface &original, double limit, Job &job)
-    : limit2_(limit * limit),
-      original_(original),
+    : limit_(limit),
       nearest_(original.points, original.triangles, leaf, job),
+      samples_(&job.memory),
       first_(original.triangles.size(), -1, &job.memory),
-      next_(original.points.size(), -1, &job.memory),
+      next_(&job.memory),
       homes_(&job.memory) {
-  Array<std::uint8_t> listed(original.points.size(), 0, &job.memory);
-  for (std::size_t t = 0; t < first_.size(); t++)
-    for (std::int32_t v : original.triangles[t]) {
-      if (listed[std::size_t(v)]) continue;
-      listed[std::size_t(v)] = 1;
-      next_[std::size_t(v)] = first_[t];
-      first_[t] = v;
-    }
+  for_samples(original, Samples::between_too, job.memory, [&](const Vec3 &p, std::size_t t) {
+    next_.push_back(std::exchange(first_[t], std::int32_t(samples_.size())));
+    samples_.push_back(p);
+  });
 }
 
 bool DeviationLimit::is_passed(const Star &star) {
+  if (is_far(star.centre)) return true;
   homes_.clear();
   for (std::size_t i = 0; i < star.old_faces.size(); i++)
-    for (std::int32_t v = first_[std::size_t(star.old_faces[i])]; v >= 0; v = next_[std::size_t(v)]) {
-      const std::size_t spoke = near_spoke(star, i < 2 ? 0 : i - 2, original_.points[std::size_t(v)], limit2_);
+    for (std::int32_t s = first_[std::size_t(star.old_faces[i])]; s >= 0; s = next_[std::size_t(s)]) {
+      const std::size_t spoke = near_spoke(star, i < 2 ? 0 : i - 2, samples_[std::size_t(s)], limit_ * limit_);
       if (spoke == star.size()) return true;
-      homes_.push_back({v, star.spoke_face(spoke)});
+      homes_.push_back({s, star.spoke_face(spoke)});
     }
-  const double distance = nearest_.nearest(star.centre).distance;
-  return !(distance * distance <= limit2_);
+  for (std::size_t i = 0; i < star.size(); i++) {
+    const Vec3 &a = star.ring[i], &b = star.ring[star.after(i)];
+    if (is_far(0.5 * (star.centre + a)) || is_far((star.centre + a + b) / 3.0)) return true;
+  }
+  return false;
 }
+
+bool DeviationLimit::is_far(const Vec3 &p) const { return !(nearest_.nearest(p).distance <= limit_); }
 
 void DeviationLimit::move_on(const Star &star) {
   for (std::int32_t t : star.old_faces) first_[std::size_t(t)] = -1;
-  for (const auto &[v, t] : homes_) {
-    next_[std::size_t(v)] = first_[std::size_t(t)];
-    first_[std::size_t(t)] = v;
-  }
+  for (const auto &[s, t] : homes_) next_[std::size_t(s)] = std::exchange(first_[std::size_t(t)], s);
 }
 
 }  // namespace tetlod

@@ -6,11 +6,20 @@
 
 namespace tetlod {
 
-/// The largest distance from a vertex of either surface to the other surface.
-double largest_deviation(const Surface &a, const Surface &b, Job &job);
+/// Of a surface, where its distance to another is measured.
+enum class Samples {
+  vertices,
+  between_too  ///< the middles of edges and triangles as well
+};
 
-/// Keeps vertices of the original surface within a distance of the triangles that stand for them, and vertices of the
-/// simplified one within it of the original. Each triangle has a list of the original vertices that it stands for.
+/// A limit is held at all of them; where there is none, the vertices say enough.
+inline Samples samples_for(double limit) { return limit > 0 ? Samples::between_too : Samples::vertices; }
+
+/// The largest distance from a sample of either surface to the other surface.
+double largest_deviation(const Surface &a, const Surface &b, Samples samples, Job &job);
+
+/// Keeps all samples of the original surface within a distance of the triangles that stand for them, and those of the
+/// simplified one within it of the original. Each triangle has a list of the original's samples that it stands for.
 class DeviationLimit {
  public:
   /// original: must live as long; its triangles are those that the decimation begins with, by number.
@@ -22,11 +31,13 @@ class DeviationLimit {
   void move_on(const Star &star);
 
  private:
-  double limit2_;
-  const Surface &original_;
+  bool is_far(const Vec3 &p) const;
+
+  double limit_;
   NearestTriangle nearest_;
-  Array<std::int32_t> first_, next_;                    // lists of vertices, by triangle
-  Array<std::pair<std::int32_t, std::int32_t>> homes_;  // of the collapse looked at last: vertex, triangle
+  Array<Vec3> samples_;                                 // of the original
+  Array<std::int32_t> first_, next_;                    // lists of them, by triangle
+  Array<std::pair<std::int32_t, std::int32_t>> homes_;  // of the collapse looked at last: sample, triangle
 };
 
 }  // namespace tetlod

@@ -92,7 +92,8 @@ DecimateReport Prepared::decimate_logged(const DecimateOptions &options, Span<co
   if (reused) {
     const MovedValues way = options.sees_fields() ? MovedValues::logged : MovedValues::along_edges;
     replay(logged.log, std::size_t(count), topology_, way, job, surface);
-    if (logged.measured != count) logged.deviation = largest_deviation(surface_, surface, job);
+    if (logged.measured != count)
+      logged.deviation = largest_deviation(surface_, surface, samples_for(options.max_deviation), job);
     logged.measured = count;
     report.cleaned_edges = logged.log.cleaned;
     report.edges_out = report.edges_in - 3 * count;

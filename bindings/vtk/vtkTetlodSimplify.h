@@ -119,8 +119,8 @@ class VTKTETLOD_EXPORT vtkTetlodSimplify : public vtkUnstructuredGridAlgorithm {
 
   ///@{
   /**
-   * max-deviation: bound of the distance between the boundaries, at the vertices of both, as a fraction of the
-   * diagonal; 0, the default: none.
+   * max-deviation: bound of the distance between the boundaries, at vertices and middles of edges and triangles of
+   * both, as a fraction of the diagonal; 0, the default: none.
    */
   void SetMaxDeviation(double fraction);
   double GetMaxDeviation();

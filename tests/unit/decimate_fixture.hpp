@@ -85,12 +85,23 @@ class Decimate : public testing::Test {
   }
 
   /// Of the vertices of either surface from the other.
-  double brute_deviation() const {
+  /// At the vertices of both, or also at the middles of edges and triangles.
+  double brute_deviation(bool between) const {
     double largest = 0;
-    for (const Vec3 &p : original.points)
-      largest = std::max(largest, brute_nearest(result.points, result.triangles, p).distance);
-    for (const Vec3 &p : result.points)
-      largest = std::max(largest, brute_nearest(original.points, original.triangles, p).distance);
+    const auto look = [&](const Vec3 &p, const Surface &from) {
+      largest = std::max(largest, brute_nearest(from.points, from.triangles, p).distance);
+    };
+    const auto look_at_all = [&](const Surface &of, const Surface &from) {
+      for (const Vec3 &p : of.points) look(p, from);
+      for (const Triangle &t : of.triangles) {
+        if (!between) continue;
+        const auto corner = [&](std::size_t k) { return of.points[std::size_t(t[k % 3])]; };
+        look((corner(0) + corner(1) + corner(2)) / 3.0, from);
+        for (std::size_t k = 0; k < 3; k++) look((corner(k) + corner(k + 1)) / 2.0, from);
+      }
+    };
+    look_at_all(original, result);
+    look_at_all(result, original);
     return largest;
   }
 

@@ -210,7 +210,7 @@ TEST_F(DecimateSolid, GoesNoFurtherThanMaxDeviation) {
   ASSERT_TRUE(decimate(0.2, host, held));
   expect_sound(held);
   EXPECT_LE(held.deviation, options.max_deviation);
-  EXPECT_EQ(held.deviation, largest_deviation(surface, held.surface, host.job));
+  EXPECT_EQ(held.deviation, largest_deviation(surface, held.surface, Samples::between_too, host.job));
 }
 
 /// Along z nothing changes but linearly: an eighth of the vertices is enough.
