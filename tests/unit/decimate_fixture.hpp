@@ -84,8 +84,7 @@ class Decimate : public testing::Test {
     expect_untouched(std::size_t(found - result.origin.begin()));
   }
 
-  /// Of the vertices of either surface from the other.
-  /// At the vertices of both, or also at the middles of edges and triangles.
+  /// Of either surface from the other, at its vertices, or also at the middles of its edges and triangles.
   double brute_deviation(bool between) const {
     double largest = 0;
     const auto look = [&](const Vec3 &p, const Surface &from) {

@@ -143,6 +143,7 @@ TEST_F(TargetedRun, HoldsItsBound) {
 /// Of walls that are plane but for rounding: vertices of the result come to be almost, but not quite, at others.
 TEST_F(TargetedRun, HoldsItsBoundOnRoundedWalls) {
   options.max_error = 0.001;
+  // Of the first 150 seeds 71 passed the bound where such vertices were inserted.
   for (unsigned seed = 60; seed < 80; seed++) {
     Mesh original = kuhn_cube(6);
     std::mt19937 random(seed);
