@@ -72,6 +72,21 @@ Values<m> values_at(const AdaptiveMesh<m> &mesh, std::int32_t t, const Vec3 &p) 
   return range.clamp(values);
 }
 
+/// Puts the worst of the tets from `first` on in order, to `last`, the worst first; where that ends.
+template <std::size_t m>
+std::size_t sort_worst(const AdaptiveMesh<m> &mesh, std::size_t first, std::size_t last, Job &job,
+                       Array<std::int32_t> &tets) {
+  const PollingLess worse(job, 0.5, [&](std::int32_t a, std::int32_t b) {
+    const double x = mesh.error[std::size_t(a)], y = mesh.error[std::size_t(b)];
+    return x != y ? x > y : a < b;
+  });
+  const auto at = [&](std::size_t i) { return tets.begin() + std::ptrdiff_t(i); };
+  last = std::min(last, tets.size());
+  std::nth_element(at(first), at(last), tets.end(), worse);
+  std::sort(at(first), at(last), worse);
+  return last;
+}
+
 }  // namespace
 
 template <std::size_t m>
@@ -133,15 +148,11 @@ std::int64_t insert_vertices(std::int64_t tets, Job &job, AdaptiveMesh<m> &mesh)
   Array<std::int32_t> worst(&job.memory);
   for (std::size_t t = 0; t < mesh.tets.size(); t++)
     if (mesh.alive(std::int32_t(t)) && mesh.error[t] > 0) worst.push_back(std::int32_t(t));
-  const auto worse = [&](std::int32_t a, std::int32_t b) {
-    const double x = mesh.error[std::size_t(a)], y = mesh.error[std::size_t(b)];
-    return x != y ? x > y : a < b;
-  };
-  std::sort(worst.begin(), worst.end(), PollingLess(job, 0.5, worse));
   const auto nearly = std::int64_t(mesh.count()) + tets - 1;  // each brings two or three
   std::int64_t inserted = 0;
-  for (std::size_t i = 0; i < worst.size() && std::int64_t(mesh.count()) < nearly; i++) {
+  for (std::size_t i = 0, sorted = 0; i < worst.size() && std::int64_t(mesh.count()) < nearly; i++) {
     if (i % 64 == 0) job.poll(0.5);
+    if (i == sorted) sorted = sort_worst(mesh, sorted, sorted + std::size_t(tets), job, worst);
     const std::int32_t t = worst[i];
     if (!mesh.alive(t) || mesh.error[std::size_t(t)] <= 0) continue;
     Vec3 p = centre_of_residuals(mesh, t);

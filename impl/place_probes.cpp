@@ -20,7 +20,6 @@ constexpr double everywhere = 0.14, by_change = 0.42, small_mesh = 1e5, most_for
 constexpr double vertices_a_tet = 8, inner_a_tet = 8, share_without_rounds = 0.5;
 constexpr std::size_t block = 1024;
 constexpr int longest_walk = 200;
-constexpr std::int64_t leaf = 16;  // tets of a tree that is asked seldom
 
 /// Uniform in [0, 1), a number for each key.
 double random_unit(std::uint64_t key) {
@@ -128,7 +127,7 @@ class Locator {
  public:
   Locator(const TetComplex &mesh, Job &job) : mesh_(mesh), frames_(&job.memory), tree_(job.memory) {
     while (!mesh.alive(start_)) start_++;
-    Array<Box> boxes(mesh.tets.size(), &job.memory);
+    Array<Box> boxes(mesh.tets.size() / together + 1, &job.memory);
     frames_.reserve(mesh.tets.size());
     // Some at a time: to touch the room for all at once takes as long as 50 ms.
     for (std::size_t first = 0; first < mesh.tets.size(); first += many) {
@@ -136,11 +135,11 @@ class Locator {
       frames_.resize(first + count);
       job.parallel.for_blocks(count, block, [&](std::size_t begin, std::size_t end) {
         for (std::size_t t = first + begin; t < first + end; t++)
-          if (mesh.alive(std::int32_t(t))) add(std::int32_t(t), boxes[t]);
+          if (mesh.alive(std::int32_t(t))) add(std::int32_t(t), boxes[t / together]);
       });
       job.poll(0.1);
     }
-    tree_.build(std::move(boxes), leaf, job, 0.1);
+    tree_.build(std::move(boxes), 1, job, 0.1);
   }
 
   /// The tet of p, searched from tet `hint` on, or, where that is -1, from anywhere; -1 outside.
@@ -150,14 +149,18 @@ class Locator {
   }
 
  private:
+  /// Tets of the tree's items, as it is asked seldom: most that lie side by side in memory do so in space.
+  static constexpr std::size_t together = 32;
   static constexpr std::size_t many = 1 << 15;
+  static_assert(block % together == 0 && many % block == 0, "no two threads may write to a box");
 
   void add(std::int32_t t, Box &box) {
     frames_[std::size_t(t)] = mesh_.frame(t);
-    for (int k = 0; k < 4; k++) box.add(mesh_.corner(t, k));
-    const Vec3 margin = tolerance * (box.high - box.low);
-    box.low -= margin;
-    box.high += margin;
+    Box own;
+    for (int k = 0; k < 4; k++) own.add(mesh_.corner(t, k));
+    const Vec3 margin = tolerance * (own.high - own.low);
+    box.add(own.low - margin);
+    box.add(own.high + margin);
   }
 
   std::int32_t walk(const Vec3 &p, std::int32_t t) const {
@@ -174,12 +177,14 @@ class Locator {
   std::int32_t search(const Vec3 &p) const {
     double best = -tolerance;
     std::int32_t found = -1;
-    tree_.any_overlap({p, p}, [&](std::int32_t t) {
-      double w[4];
-      const double least = frames_[std::size_t(t)].weights(p, w);
-      if (least > best) {
+    tree_.any_overlap({p, p}, [&](std::int32_t item) {
+      const std::size_t first = std::size_t(item) * together;
+      for (std::size_t t = first; t < std::min(first + together, frames_.size()) && best < 0; t++) {
+        double w[4];
+        const double least = mesh_.alive(std::int32_t(t)) ? frames_[t].weights(p, w) : -1;
+        if (least <= best) continue;
         best = least;
-        found = t;
+        found = std::int32_t(t);
       }
       return best >= 0;
     });

@@ -20,7 +20,9 @@ namespace {
 
 /// What a tet must gain to be worth it, in mean errors of a tet; and where a vertex goes that was worth its tets once.
 constexpr double price_of_tet = 1.33, price_of_vertex = 0.5;
-constexpr int fit_steps = 8, last_fit_steps = 20;
+constexpr int fit_steps = 8;
+/// Probes for each tet, below which passes serve the probes alone, and what is between them suffers.
+constexpr double least_probes = 1.7;
 
 template <std::size_t m>
 class Refinement {
@@ -46,7 +48,7 @@ class Refinement {
     place_probes(original_, enough, job_, mesh_);
     if (options_.follows_field) follow_field();
     insert(options_.tets - std::int64_t(mesh_.count()));
-    fit_values(last_fit_steps, job_, mesh_);
+    fit_values(fit_steps, job_, mesh_);
     if (enough.most_vertices < double(original_.points.size())) place_probes(original_, every_vertex(), job_, mesh_);
     if (options_.bound > 0) report_.beyond_bound = hold_bound(options_.bound, job_, mesh_);
     report_.max_error = largest_error(mesh_, job_).value;
@@ -68,6 +70,7 @@ class Refinement {
   }
 
   void follow_field() {
+    if (double(mesh_.probes.size()) < least_probes * double(mesh_.count())) return move(0);
     fit_values(fit_steps, job_, mesh_);
     move(0);
     flip();

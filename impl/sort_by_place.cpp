@@ -1,11 +1,20 @@
 #include "sort_by_place.hpp"
 
 #include <algorithm>
-#include <functional>
+#include <array>
+#include <numeric>
 
 namespace tetlod {
 
 namespace {
+
+/// Bits of a code for each axis, and those that one pass of the sort looks at.
+constexpr int axis_bits = 16, digit_bits = 12;
+
+struct Coded {
+  std::uint64_t code;
+  std::int32_t number;
+};
 
 /// The lower 21 bits, each followed by two zeros.
 std::uint64_t spread(std::uint64_t x) {
@@ -21,24 +30,37 @@ std::uint64_t morton_code(const Vec3 &p, const Box &box) {
   std::uint64_t code = 0;
   for (int k = 0; k < 3; k++) {
     const double share = extent[k] > 0 ? std::clamp((p[k] - box.low[k]) / extent[k], 0.0, 1.0) : 0.0;
-    code |= spread(std::uint64_t(share * 0x1fffff)) << k;
+    code |= spread(std::uint64_t(share * ((1 << axis_bits) - 1))) << k;
   }
   return code;
+}
+
+/// By the digit from bit `shift` on; what is equal in it keeps its order.
+void sort_by_digit(const Array<Coded> &codes, int shift, Array<Coded> &sorted) {
+  const auto digit = [&](const Coded &of) { return std::size_t(of.code >> shift) & ((1 << digit_bits) - 1); };
+  std::array<std::uint32_t, (1 << digit_bits) + 1> next{};
+  for (const Coded &of : codes) next[digit(of) + 1]++;
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  for (const Coded &of : codes) sorted[next[digit(of)]++] = of;
 }
 
 }  // namespace
 
 Array<std::int32_t> order_by_place(Span<const Vec3> places, Job &job) {
   const Box box = box_of(places);
-  Array<std::pair<std::uint64_t, std::int32_t>> codes(places.size(), &job.memory);
+  Array<Coded> codes(places.size(), Coded{}, &job.memory), sorted(places.size(), Coded{}, &job.memory);
   job.parallel.for_blocks(places.size(), 4096, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; i++) codes[i] = {morton_code(places[i], box), std::int32_t(i)};
     job.poll(0);
   });
-  std::sort(codes.begin(), codes.end(), PollingLess(job, 0, std::less<>()));
+  for (int shift = 0; shift < 3 * axis_bits; shift += digit_bits) {
+    job.poll(0);
+    sort_by_digit(codes, shift, sorted);
+    codes.swap(sorted);
+  }
   Array<std::int32_t> order(&job.memory);
   order.reserve(codes.size());
-  for (const auto &[code, i] : codes) order.push_back(i);
+  for (const Coded &of : codes) order.push_back(of.number);
   return order;
 }
 
