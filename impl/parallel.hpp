@@ -39,6 +39,13 @@ class Parallel {
     static_cast<void>(done.load(std::memory_order_acquire));
   }
 
+  /// body(begin, end) for a part of [0, count) for each thread: where each has to look at all of something, and what it
+  /// does with an index does not depend on the part.
+  template <class Body>
+  void for_parts(std::size_t count, const Body &body) const {
+    for_blocks(count, count / std::size_t(threads_) + 1, body);
+  }
+
  private:
   int threads_;
   std::unique_ptr<tbb::task_arena> arena_;

@@ -75,14 +75,13 @@ Array<std::uint32_t> SolidComplex::usual_neighbours(Memory &memory) const {
 }
 
 void SolidComplex::find_neighbours(Job &job) {
-  constexpr std::size_t parts = 8;  // each has to remember what it has seen
   neighbours = StarLists(usual_neighbours(job.memory), job);
+  const auto parts = std::size_t(job.parallel.threads());
   Array<CollapseRoom> rooms(&job.memory);
   rooms.reserve(parts);
   for (std::size_t i = 0; i < parts; i++) rooms.emplace_back(job.memory);
-  const std::size_t part = points.size() / parts + 1;
-  job.parallel.for_blocks(points.size(), part, [&](std::size_t begin, std::size_t end) {
-    CollapseRoom &room = rooms[begin / part];
+  job.parallel.for_parts(points.size(), [&](std::size_t begin, std::size_t end) {
+    CollapseRoom &room = rooms[begin * parts / points.size()];
     Array<std::int32_t> seen_by(points.size(), -1, &job.memory);
     for (std::size_t v = begin; v < end; v++) {
       if (v % 4096 == 0) job.poll(0);

@@ -84,9 +84,8 @@ double SolidMesh<m>::weight_of_planes() const {
 
 template <std::size_t m>
 void SolidMesh<m>::find_quadrics(Job &job) {
-  constexpr std::size_t parts = 8;  // each has to look at every tet
   const double weight = weight_of_planes();
-  job.parallel.for_blocks(vertices_.size(), vertices_.size() / parts + 1, [&](std::size_t begin, std::size_t end) {
+  job.parallel.for_parts(vertices_.size(), [&](std::size_t begin, std::size_t end) {
     add_tets(begin, end, job);
     for (std::size_t v = begin; v < end; v++) add_planes(std::int32_t(v), weight);
   });

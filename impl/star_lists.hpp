@@ -51,17 +51,12 @@ class StarLists {
   template <std::size_t corners>
   StarLists(Span<const std::array<std::int32_t, corners>> simplices, std::size_t vertices, Job &job)
       : StarLists(vertices, job) {
-    job.poll(0);
-    for (const auto &s : simplices)
-      if (s[0] >= 0)
-        for (std::int32_t v : s) count_[std::size_t(v)]++;
+    for_corners(simplices, job, [&](std::int32_t v, std::int32_t) { count_[std::size_t(v)]++; });
     give_room();
     std::fill(count_.begin(), count_.end(), 0);
-    for (std::size_t i = 0; i < simplices.size(); i++) {
-      if (i % 65536 == 0) job.poll(0);
-      if (simplices[i][0] < 0) continue;
-      for (std::int32_t v : simplices[i]) begin_[std::size_t(v)][count_[std::size_t(v)]++] = std::int32_t(i);
-    }
+    for_corners(simplices, job, [&](std::int32_t v, std::int32_t simplex) {
+      begin_[std::size_t(v)][count_[std::size_t(v)]++] = simplex;
+    });
   }
 
   Span<const std::int32_t> of(std::int32_t v) const { return {begin_[std::size_t(v)], count_[std::size_t(v)]}; }
@@ -99,6 +94,19 @@ class StarLists {
   }
 
  private:
+  /// visit(vertex, simplex) for every corner: of one vertex one after another, of several at the same time.
+  template <std::size_t corners, class Visit>
+  void for_corners(Span<const std::array<std::int32_t, corners>> simplices, Job &job, const Visit &visit) const {
+    job.parallel.for_parts(count_.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = 0; i < simplices.size(); i++) {
+        if (i % 65536 == 0) job.poll(0);
+        if (simplices[i][0] < 0) continue;
+        for (std::int32_t v : simplices[i])
+          if (std::size_t(v) - begin < end - begin) visit(v, std::int32_t(i));
+      }
+    });
+  }
+
   void give_room() {
     std::size_t total = 0;
     for (std::uint32_t count : count_) total += count;
