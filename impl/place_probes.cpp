@@ -125,9 +125,10 @@ void add_inner(const MeshView &original, double most, Job &job, Array<Probe<m>> 
 /// Finds tets by walking, and where the walk meets the boundary, by a tree.
 class Locator {
  public:
-  Locator(const TetComplex &mesh, Job &job) : mesh_(mesh), frames_(&job.memory), tree_(job.memory) {
+  Locator(const TetComplex &mesh, Job &job)
+      : mesh_(mesh), frames_(&job.memory), together_(tets_an_item(mesh.tets.size())), tree_(job.memory) {
     while (!mesh.alive(start_)) start_++;
-    Array<Box> boxes(mesh.tets.size() / together + 1, &job.memory);
+    Array<Box> boxes(mesh.tets.size() / together_ + 1, &job.memory);
     frames_.reserve(mesh.tets.size());
     // Some at a time: to touch the room for all at once takes as long as 50 ms.
     for (std::size_t first = 0; first < mesh.tets.size(); first += many) {
@@ -135,11 +136,11 @@ class Locator {
       frames_.resize(first + count);
       job.parallel.for_blocks(count, block, [&](std::size_t begin, std::size_t end) {
         for (std::size_t t = first + begin; t < first + end; t++)
-          if (mesh.alive(std::int32_t(t))) add(std::int32_t(t), boxes[t / together]);
+          if (mesh.alive(std::int32_t(t))) add(std::int32_t(t), boxes[t / together_]);
       });
       job.poll(0.1);
     }
-    tree_.build(std::move(boxes), 1, job, 0.1);
+    tree_.build(std::move(boxes), leaf, job, 0.1);
   }
 
   /// The tet of p, searched from tet `hint` on, or, where that is -1, from anywhere; -1 outside.
@@ -149,10 +150,17 @@ class Locator {
   }
 
  private:
-  /// Tets of the tree's items, as it is asked seldom: most that lie side by side in memory do so in space.
-  static constexpr std::size_t together = 32;
   static constexpr std::size_t many = 1 << 15;
-  static_assert(block % together == 0 && many % block == 0, "no two threads may write to a box");
+  static constexpr std::int64_t leaf = 16;
+
+  /// How many tets are one item of the tree. Those side by side in memory are so in space, mostly; and of many tets,
+  /// few points go down the tree. No two blocks have tets of one item.
+  static std::size_t tets_an_item(std::size_t tets) {
+    constexpr std::size_t most_items = 100000;
+    std::size_t together = 1;
+    while (together < block && tets > together * most_items) together *= 2;
+    return together;
+  }
 
   void add(std::int32_t t, Box &box) {
     frames_[std::size_t(t)] = mesh_.frame(t);
@@ -178,8 +186,8 @@ class Locator {
     double best = -tolerance;
     std::int32_t found = -1;
     tree_.any_overlap({p, p}, [&](std::int32_t item) {
-      const std::size_t first = std::size_t(item) * together;
-      for (std::size_t t = first; t < std::min(first + together, frames_.size()) && best < 0; t++) {
+      const std::size_t first = std::size_t(item) * together_;
+      for (std::size_t t = first; t < std::min(first + together_, frames_.size()) && best < 0; t++) {
         double w[4];
         const double least = mesh_.alive(std::int32_t(t)) ? frames_[t].weights(p, w) : -1;
         if (least <= best) continue;
@@ -194,6 +202,7 @@ class Locator {
   const TetComplex &mesh_;
   std::int32_t start_ = 0;
   Array<TetFrame> frames_;
+  std::size_t together_;
   KdTree tree_;
 };
 
