@@ -6,7 +6,7 @@ namespace tetlod {
 
 namespace {
 
-constexpr double pull = 1e-3;  // of the mean diagonal
+constexpr double pull = 1e-2;  // of the mean diagonal: less, and vertices with few probes go too far
 constexpr std::size_t block = 256;
 constexpr std::size_t many = 1 << 15;  // tets between two polls of passes that do little with each
 /// Partial sums over tets are this many, so that they may be made at the same time.
@@ -53,6 +53,7 @@ class Fit {
         job_(job),
         products_(&job.memory),
         residual_(mesh.points.size(), Values<m>{}, &job.memory),
+        diagonal_(mesh.points.size(), 0.0, &job.memory),
         seen_(&job.memory),
         partial_(&job.memory) {
     products_.reserve(mesh.tets.size());
@@ -62,9 +63,14 @@ class Fit {
     double sum = 0;
     for (std::size_t t = 0; t < products_.size(); t++) {
       poll_at(t);
-      for (std::size_t i = 0; i < 4; i++) sum += double(products_[t][entry_of(i, i)]);
+      if (!mesh.alive(std::int32_t(t))) continue;
+      for (std::size_t i = 0; i < 4; i++) {
+        diagonal_[std::size_t(mesh.tets[t][i])] += double(products_[t][entry_of(i, i)]);
+        sum += double(products_[t][entry_of(i, i)]);
+      }
     }
     pull_ = pull * sum / double(mesh.points.size()) + 1e-300;
+    for (double &entry : diagonal_) entry += pull_;
   }
 
   void solve(int steps) {
@@ -72,8 +78,9 @@ class Fit {
     Array<Values<m>> x(count, Values<m>{}, &job_.memory), p(&job_.memory), image(count, Values<m>{}, &job_.memory);
     Array<Values<m>> &r = residual_;
     leave_kept(r);
-    p.assign(r.begin(), r.end());
-    Values<m> rr = dot(r, r);
+    p.reserve(count);
+    for (std::size_t i = 0; i < count; i++) p.push_back(over_diagonal(r, i));
+    Values<m> rr = dot(r, p);
     const Values<m> start = rr;
     for (int step = 0; step < steps && any_left(rr, start); step++) {
       apply(p, image);
@@ -83,10 +90,11 @@ class Fit {
           x[i][k] += alpha[k] * p[i][k];
           r[i][k] -= alpha[k] * image[i][k];
         }
-      const Values<m> next = dot(r, r);
+      for (std::size_t i = 0; i < count; i++) image[i] = over_diagonal(r, i);
+      const Values<m> next = dot(r, image);
       const Values<m> beta = quotient(next, rr, rr, start);
       for (std::size_t i = 0; i < count; i++)
-        for (std::size_t k = 0; k < m; k++) p[i][k] = r[i][k] + beta[k] * p[i][k];
+        for (std::size_t k = 0; k < m; k++) p[i][k] = image[i][k] + beta[k] * p[i][k];
       rr = next;
     }
     take(x);
@@ -98,6 +106,13 @@ class Fit {
     for (std::size_t k = 0; k < m; k++)
       if (is_left(rr[k], start[k])) return true;
     return false;
+  }
+
+  /// Preconditioned by Jacobi: some vertices have many probes around them, and some few.
+  Values<m> over_diagonal(const Array<Values<m>> &r, std::size_t v) const {
+    Values<m> z = r[v];
+    for (double &x : z) x /= diagonal_[v];
+    return z;
   }
 
   /// Of the fields that are not solved; 0 of the others, which stay.
@@ -194,6 +209,7 @@ class Fit {
   Job &job_;
   Array<Products> products_;
   Array<Values<m>> residual_;
+  Array<double> diagonal_;
   Array<ValueRange<m>> seen_;  // around each vertex, itself included
   Array<Values<m>> partial_;   // the image's parts, one after another
   double pull_ = 0;

@@ -53,21 +53,53 @@ std::int32_t corner_at(const TetComplex &mesh, std::int32_t t, const Vec3 &p, do
   return w[most] > 1 - tolerance ? mesh.tets[std::size_t(t)][most] : -1;
 }
 
-template <std::size_t m>
-class Bound {
- public:
-  Bound(double bound, Job &job, AdaptiveMesh<m> &mesh) : bound_((1 - margin) * bound), job_(job), mesh_(mesh) {}
+/// Of tet t, when it was measured.
+struct Measured {
+  double error;
+  std::int32_t tet;
+  bool operator<(const Measured &o) const { return error != o.error ? error < o.error : tet > o.tet; }
+};
 
-  std::int64_t hold() {
+template <std::size_t m>
+class LargestErrors {
+ public:
+  LargestErrors(Job &job, AdaptiveMesh<m> &mesh) : job_(job), mesh_(mesh), around_(&job.memory) {}
+
+  std::int64_t hold(double bound) {
     for (int sweep = 0;; sweep++) {
-      const std::int64_t inserted = sweep_once();
-      if (inserted == 0) return left_;
+      const std::int64_t served = serve_beyond((1 - margin) * bound);
+      if (served == 0) return left_;
       if (sweep < flipping_sweeps) flip_tets(mesh_.total_error() / double(mesh_.count()), job_, mesh_);
     }
   }
 
+  void lower(std::int64_t tets) {
+    Array<Measured> largest(&job_.memory);
+    for (std::size_t t = 0; t < mesh_.tets.size(); t++)
+      if (mesh_.alive(std::int32_t(t))) add(std::int32_t(t), largest);
+    std::make_heap(largest.begin(), largest.end());
+    for (std::size_t i = 0; std::int64_t(mesh_.count()) < tets && !largest.empty(); i++) {
+      if (i % 256 == 0) job_.poll(0.9);
+      std::pop_heap(largest.begin(), largest.end());
+      const Measured next = largest.back();
+      largest.pop_back();
+      if (!mesh_.alive(next.tet)) continue;
+      const LargestError worst = largest_in(mesh_, next.tet);
+      if (worst.value != next.error || !serve(next.tet, mesh_.probes[std::size_t(worst.probe)])) continue;
+      for (std::int32_t t : around_)
+        if (add(t, largest)) std::push_heap(largest.begin(), largest.end());
+    }
+  }
+
  private:
-  std::int64_t sweep_once() {
+  bool add(std::int32_t t, Array<Measured> &largest) const {
+    const LargestError worst = largest_in(mesh_, t);
+    if (worst.probe >= 0) largest.push_back({worst.value, t});
+    return worst.probe >= 0;
+  }
+
+  /// How many vertices; left_ is how many could not be.
+  std::int64_t serve_beyond(double bound) {
     std::int64_t done = 0;
     left_ = 0;
     const std::size_t count = mesh_.tets.size();
@@ -75,15 +107,13 @@ class Bound {
       if (t % 256 == 0) job_.poll(0.9);
       if (!mesh_.alive(std::int32_t(t))) continue;
       const LargestError worst = largest_in(mesh_, std::int32_t(t));
-      if (worst.value <= bound_) continue;
-      if (serve(std::int32_t(t), mesh_.probes[std::size_t(worst.probe)]))
-        done++;
-      else
-        left_++;
+      if (worst.value <= bound) continue;
+      (serve(std::int32_t(t), mesh_.probes[std::size_t(worst.probe)]) ? done : left_)++;
     }
     return done;
   }
 
+  /// Makes it a vertex, whose tets are around_ then.
   bool serve(std::int32_t t, const Probe<m> probe) {
     const std::int32_t corner = corner_at(mesh_, t, probe.point, near_corner);
     if (corner >= 0 && give_values(corner, probe.value)) return true;
@@ -91,6 +121,7 @@ class Bound {
     for (double snap : snaps)
       if (insert_vertex(t, probe.point, probe.value, snap, flattest, mesh_)) {
         mesh_.kept.back() = held;
+        mesh_.star(std::int32_t(mesh_.points.size()) - 1, around_);
         return true;
       }
     return false;
@@ -101,15 +132,14 @@ class Bound {
     if (mesh_.kept[std::size_t(v)]) return false;
     mesh_.kept[std::size_t(v)] = held;
     mesh_.values[std::size_t(v)] = values;
-    Array<std::int32_t> around(&job_.memory);
-    mesh_.star(v, around);
-    for (std::int32_t t : around) mesh_.measure(t);
+    mesh_.star(v, around_);
+    for (std::int32_t t : around_) mesh_.measure(t);
     return true;
   }
 
-  double bound_;
   Job &job_;
   AdaptiveMesh<m> &mesh_;
+  Array<std::int32_t> around_;
   std::int64_t left_ = 0;
 };
 
@@ -129,7 +159,12 @@ LargestError largest_error(const AdaptiveMesh<m> &mesh, Job &job) {
 
 template <std::size_t m>
 std::int64_t hold_bound(double bound, Job &job, AdaptiveMesh<m> &mesh) {
-  return Bound<m>(bound, job, mesh).hold();
+  return LargestErrors<m>(job, mesh).hold(bound);
+}
+
+template <std::size_t m>
+void lower_largest(std::int64_t tets, Job &job, AdaptiveMesh<m> &mesh) {
+  LargestErrors<m>(job, mesh).lower(tets);
 }
 
 template LargestError largest_error(const AdaptiveMesh<1> &, Job &);
@@ -137,8 +172,12 @@ template LargestError largest_error(const AdaptiveMesh<2> &, Job &);
 template LargestError largest_error(const AdaptiveMesh<3> &, Job &);
 template LargestError largest_error(const AdaptiveMesh<4> &, Job &);
 template std::int64_t hold_bound(double, Job &, AdaptiveMesh<1> &);
+template void lower_largest(std::int64_t, Job &, AdaptiveMesh<1> &);
 template std::int64_t hold_bound(double, Job &, AdaptiveMesh<2> &);
+template void lower_largest(std::int64_t, Job &, AdaptiveMesh<2> &);
 template std::int64_t hold_bound(double, Job &, AdaptiveMesh<3> &);
+template void lower_largest(std::int64_t, Job &, AdaptiveMesh<3> &);
 template std::int64_t hold_bound(double, Job &, AdaptiveMesh<4> &);
+template void lower_largest(std::int64_t, Job &, AdaptiveMesh<4> &);
 
 }  // namespace tetlod

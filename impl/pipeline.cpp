@@ -119,7 +119,7 @@ class Pipeline {
     describe_boundary(prepared_.topology(job_), report_);
     const StageTimer timer(Stage::decimate, job_, report_);
     const double diagonal = original_.box.diagonal();
-    const SolidOptions options{budget_.tets, options_.max_deviation * diagonal, original_.flags, {}};
+    const SolidOptions options{before_lowering(budget_.tets), options_.max_deviation * diagonal, original_.flags, {}};
     CoarseSolid coarse(job_.memory);
     const std::string wrong =
         decimate_solid_and_check(original_.view, boundary_, prepared_.surface(job_), prepared_.topology(job_), options,

@@ -20,7 +20,7 @@ namespace {
 
 /// What a tet must gain to be worth it, in mean errors of a tet; and where a vertex goes that was worth its tets once.
 constexpr double price_of_tet = 1.33, price_of_vertex = 0.5;
-constexpr int fit_steps = 8;
+constexpr int fit_steps = 4;
 /// Probes for each tet, below which passes serve the probes alone, and what is between them suffers.
 constexpr double least_probes = 1.7;
 
@@ -47,10 +47,13 @@ class Refinement {
     const ProbeOptions enough = projected(enough_probes(double(options_.tets), options_.rounds));
     place_probes(original_, enough, job_, mesh_);
     if (options_.follows_field) follow_field();
-    insert(options_.tets - std::int64_t(mesh_.count()));
+    insert(before_lowering(options_.tets) - std::int64_t(mesh_.count()));
     fit_values(fit_steps, job_, mesh_);
     if (enough.most_vertices < double(original_.points.size())) place_probes(original_, every_vertex(), job_, mesh_);
-    if (options_.bound > 0) report_.beyond_bound = hold_bound(options_.bound, job_, mesh_);
+    if (options_.bound > 0)
+      report_.beyond_bound = hold_bound(options_.bound, job_, mesh_);
+    else
+      lower_largest(options_.tets, job_, mesh_);
     report_.max_error = largest_error(mesh_, job_).value;
     count_points();
     write();
@@ -80,7 +83,7 @@ class Refinement {
       const bool last = round + 1 == options_.rounds;
       if (!last) remove();
       const std::size_t first = mesh_.points.size();
-      insert((options_.tets - std::int64_t(mesh_.count())) / (last ? 1 : 2));
+      insert((before_lowering(options_.tets) - std::int64_t(mesh_.count())) / (last ? 1 : 2));
       move(first);
       flip();
       move(0);

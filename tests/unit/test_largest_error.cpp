@@ -1,0 +1,76 @@
+// The largest errors of a small mesh: found, lowered one after another, and gone when every vertex is served.
+#include <gtest/gtest.h>
+
+#include "hold_bound.hpp"
+#include "meshes.hpp"
+#include "place_probes.hpp"
+
+namespace tetlod {
+namespace {
+
+using namespace test;
+
+/// A coarse cube among the vertices of a fine one.
+class TheLargestError : public testing::Test {
+ protected:
+  TheLargestError() : original(kuhn_cube(8)), mesh(host.memory) {
+    set_scalars(original,
+                [](const Vec3 &p) { return std::sin(9 * p.x) * std::cos(7 * p.y) + std::exp(p.y + 2 * p.z); });
+    const Mesh coarse = kuhn_cube(2);
+    const TetMesh result = as_result(coarse, host.memory);
+    mesh.points.assign(result.points.begin(), result.points.end());
+    mesh.tets.assign(result.tets.begin(), result.tets.end());
+    mesh.values.assign(mesh.points.size(), Values<1>{0});
+    mesh.kept.assign(mesh.points.size(), 0);
+    mesh.connect(host.job);
+    ProbeOptions vertices;
+    vertices.most_inner = 0;
+    place_probes(original.view(), vertices, host.job, mesh);
+  }
+
+  double largest() { return largest_error(mesh, host.job).value; }
+
+  void expect_whole() {
+    double volume = 0;
+    for (std::size_t t = 0; t < mesh.tets.size(); t++) {
+      if (!mesh.alive(std::int32_t(t))) continue;
+      const double own = det(mesh.corner(std::int32_t(t), 0), mesh.corner(std::int32_t(t), 1),
+                             mesh.corner(std::int32_t(t), 2), mesh.corner(std::int32_t(t), 3));
+      EXPECT_GT(own, 0);
+      volume += own / 6;
+    }
+    EXPECT_NEAR(volume, 1, 1e-12);
+  }
+
+  Host host;
+  Mesh original;
+  AdaptiveMesh<1> mesh;
+};
+
+TEST_F(TheLargestError, IsLowerWithMoreTets) {
+  double before = largest();
+  for (std::int64_t tets : {100, 300, 900}) {
+    lower_largest(tets, host.job, mesh);
+    expect_whole();
+    EXPECT_GE(std::int64_t(mesh.count()), tets);
+    EXPECT_LT(std::int64_t(mesh.count()), tets + 24);
+    EXPECT_LT(largest(), 0.9 * before) << tets;
+    before = largest();
+  }
+}
+
+TEST_F(TheLargestError, IsNoneWhereEveryVertexIsServed) {
+  lower_largest(1000000, host.job, mesh);
+  expect_whole();
+  EXPECT_LT(largest(), 1e-12);
+  EXPECT_EQ(mesh.points.size(), original.points.size());
+}
+
+TEST_F(TheLargestError, StaysWithoutTetsForIt) {
+  const double before = largest();
+  lower_largest(std::int64_t(mesh.count()), host.job, mesh);
+  EXPECT_EQ(largest(), before);
+}
+
+}  // namespace
+}  // namespace tetlod
