@@ -21,7 +21,7 @@ constexpr double quadric_a_triangle = 90, values_a_triangle = 9;
 // Where the solid's edges collapse, the boundary is decimated only if that leads to no sound mesh: between the two.
 constexpr double seldom_a_triangle = 490, seldom_values_a_triangle = 5;
 // Of a run with a target: neighbours, frames or normal equations, and room to grow.
-constexpr double bytes_a_refined_tet = 275, bytes_a_refined_point = 70, bytes_a_probe = sizeof(Probe<1>) + 8;
+constexpr double bytes_a_refined_tet = 250, bytes_a_refined_point = 70, bytes_a_probe = sizeof(Probe<1>) + 8;
 // Of these for each field more that steers.
 constexpr double values_a_refined_tet = 2, values_a_refined_point = 7, values_a_solid_point = 8;
 // Of the original while its edges collapse.

@@ -20,6 +20,8 @@ constexpr double snaps[] = {1e-4, 1e-6, 1e-9};
 constexpr double at_corner = 1e-6, near_corner = 1e-3;
 /// Flatter tets than elsewhere are taken, for the bound's sake.
 constexpr double flattest = 1e-11;
+/// That a vertex inside a tet brings.
+constexpr std::int64_t tets_a_vertex = 3;
 /// Sweeps that also flip; the sweeps after them insert alone, which ends.
 constexpr int flipping_sweeps = 3;
 
@@ -78,7 +80,7 @@ class LargestErrors {
     for (std::size_t t = 0; t < mesh_.tets.size(); t++)
       if (mesh_.alive(std::int32_t(t))) add(std::int32_t(t), largest);
     std::make_heap(largest.begin(), largest.end());
-    for (std::size_t i = 0; std::int64_t(mesh_.count()) < tets && !largest.empty(); i++) {
+    for (std::size_t i = 0; std::int64_t(mesh_.count()) + tets_a_vertex <= tets && !largest.empty(); i++) {
       if (i % 256 == 0) job_.poll(0.9);
       std::pop_heap(largest.begin(), largest.end());
       const Measured next = largest.back();

@@ -52,7 +52,7 @@ class Refinement {
     if (enough.most_vertices < double(original_.points.size())) place_probes(original_, every_vertex(), job_, mesh_);
     if (options_.bound > 0)
       report_.beyond_bound = hold_bound(options_.bound, job_, mesh_);
-    else
+    else if (before_lowering(options_.tets) < options_.tets)
       lower_largest(options_.tets, job_, mesh_);
     report_.max_error = largest_error(mesh_, job_).value;
     count_points();
