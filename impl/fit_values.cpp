@@ -90,7 +90,7 @@ class Fit {
           x[i][k] += alpha[k] * p[i][k];
           r[i][k] -= alpha[k] * image[i][k];
         }
-      for (std::size_t i = 0; i < count; i++) image[i] = over_diagonal(r, i);
+      for (std::size_t i = 0; i < count; i++) image[i] = over_diagonal(r, i);  // of no use as p's any more
       const Values<m> next = dot(r, image);
       const Values<m> beta = quotient(next, rr, rr, start);
       for (std::size_t i = 0; i < count; i++)

@@ -77,8 +77,10 @@ class LargestErrors {
 
   void lower(std::int64_t tets) {
     Array<Measured> largest(&job_.memory);
-    for (std::size_t t = 0; t < mesh_.tets.size(); t++)
+    for (std::size_t t = 0; t < mesh_.tets.size(); t++) {
+      if (t % 4096 == 0) job_.poll(0.9);
       if (mesh_.alive(std::int32_t(t))) add(std::int32_t(t), largest);
+    }
     std::make_heap(largest.begin(), largest.end());
     for (std::size_t i = 0; std::int64_t(mesh_.count()) + tets_a_vertex <= tets && !largest.empty(); i++) {
       if (i % 256 == 0) job_.poll(0.9);

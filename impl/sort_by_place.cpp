@@ -36,12 +36,15 @@ std::uint64_t morton_code(const Vec3 &p, const Box &box) {
 }
 
 /// By the digit from bit `shift` on; what is equal in it keeps its order.
-void sort_by_digit(const Array<Coded> &codes, int shift, Array<Coded> &sorted) {
+void sort_by_digit(const Array<Coded> &codes, int shift, Job &job, Array<Coded> &sorted) {
   const auto digit = [&](const Coded &of) { return std::size_t(of.code >> shift) & ((1 << digit_bits) - 1); };
   std::array<std::uint32_t, (1 << digit_bits) + 1> next{};
   for (const Coded &of : codes) next[digit(of) + 1]++;
   std::partial_sum(next.begin(), next.end(), next.begin());
-  for (const Coded &of : codes) sorted[next[digit(of)]++] = of;
+  for (std::size_t i = 0; i < codes.size(); i++) {
+    if (i % 65536 == 0) job.poll(0);
+    sorted[next[digit(codes[i])]++] = codes[i];
+  }
 }
 
 }  // namespace
@@ -54,8 +57,7 @@ Array<std::int32_t> order_by_place(Span<const Vec3> places, Job &job) {
     job.poll(0);
   });
   for (int shift = 0; shift < 3 * axis_bits; shift += digit_bits) {
-    job.poll(0);
-    sort_by_digit(codes, shift, sorted);
+    sort_by_digit(codes, shift, job, sorted);
     codes.swap(sorted);
   }
   Array<std::int32_t> order(&job.memory);
