@@ -28,10 +28,13 @@ class Parallel {
       for (std::size_t b = 0; b < blocks; b++) run(b);
       return;
     }
-    // oneTBB's join orders everything; the counter says so in terms that a race detector sees, too.
+    // oneTBB's fork and join order everything; these say so in terms that a race detector sees, too.
+    std::atomic<bool> begun{false};
     std::atomic<std::size_t> done{0};
+    begun.store(true, std::memory_order_release);
     arena_->execute([&] {
       tbb::parallel_for(std::size_t(0), blocks, [&](std::size_t b) {
+        static_cast<void>(begun.load(std::memory_order_acquire));
         run(b);
         done.fetch_add(1, std::memory_order_release);
       });
