@@ -330,8 +330,8 @@ enum {
                                    TETLOD_ERR_MAX_ERROR */
   TETLOD_OPT_MAX_DEVIATION = 23 /* real, "max-deviation": bound of the distance between the boundaries of original and
                                    result, at vertices and middles of edges and triangles of both, as a fraction of the
-                                   diagonal; more of the boundary is kept than asked for. Of triangles that max-error
-                                   divides, at the new vertices alone. 0, the default: none */
+                                   diagonal; more of the boundary is kept than asked for. Of triangles that are divided
+                                   for the field's sake, at the new vertices alone. 0, the default: none */
 };
 enum { TETLOD_EFFORT_FAST = 1, TETLOD_EFFORT_ACCURATE = 2 };
 enum { TETLOD_POLICY_ERROR = 0, TETLOD_POLICY_REPAIR = 1 };

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <queue>
 
 #include "flip_tets.hpp"
 #include "insert_vertices.hpp"
@@ -76,32 +78,26 @@ class LargestErrors {
   }
 
   void lower(std::int64_t tets) {
-    Array<Measured> largest(&job_.memory);
+    Array<Measured> room(&job_.memory);
+    room.reserve(mesh_.count());
+    std::priority_queue largest(std::less<>(), std::move(room));
     for (std::size_t t = 0; t < mesh_.tets.size(); t++) {
       if (t % 4096 == 0) job_.poll(0.9);
-      if (mesh_.alive(std::int32_t(t))) add(std::int32_t(t), largest);
+      if (mesh_.alive(std::int32_t(t))) largest.push({largest_in(mesh_, std::int32_t(t)).value, std::int32_t(t)});
     }
-    std::make_heap(largest.begin(), largest.end());
     for (std::size_t i = 0; std::int64_t(mesh_.count()) + tets_a_vertex <= tets && !largest.empty(); i++) {
       if (i % 256 == 0) job_.poll(0.9);
-      std::pop_heap(largest.begin(), largest.end());
-      const Measured next = largest.back();
-      largest.pop_back();
+      const Measured next = largest.top();
+      largest.pop();
       if (!mesh_.alive(next.tet)) continue;
       const LargestError worst = largest_in(mesh_, next.tet);
-      if (worst.value != next.error || !serve(next.tet, mesh_.probes[std::size_t(worst.probe)])) continue;
-      for (std::int32_t t : around_)
-        if (add(t, largest)) std::push_heap(largest.begin(), largest.end());
+      if (worst.probe < 0 || worst.value != next.error) continue;
+      if (!serve(next.tet, mesh_.probes[std::size_t(worst.probe)])) continue;
+      for (std::int32_t t : around_) largest.push({largest_in(mesh_, t).value, t});
     }
   }
 
  private:
-  bool add(std::int32_t t, Array<Measured> &largest) const {
-    const LargestError worst = largest_in(mesh_, t);
-    if (worst.probe >= 0) largest.push_back({worst.value, t});
-    return worst.probe >= 0;
-  }
-
   /// How many vertices; left_ is how many could not be.
   std::int64_t serve_beyond(double bound) {
     std::int64_t done = 0;

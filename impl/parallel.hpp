@@ -42,11 +42,12 @@ class Parallel {
     static_cast<void>(done.load(std::memory_order_acquire));
   }
 
-  /// body(begin, end) for a part of [0, count) for each thread: where each has to look at all of something, and what it
-  /// does with an index does not depend on the part.
+  /// body(part, begin, end) for a part of [0, count) for each thread: where each has to look at all of something, and
+  /// what it does with an index does not depend on the part.
   template <class Body>
   void for_parts(std::size_t count, const Body &body) const {
-    for_blocks(count, count / std::size_t(threads_) + 1, body);
+    const std::size_t size = count / std::size_t(threads_) + 1;
+    for_blocks(count, size, [&](std::size_t begin, std::size_t end) { body(begin / size, begin, end); });
   }
 
  private:

@@ -20,6 +20,9 @@ namespace {
 
 /// What a tet must gain to be worth it, in mean errors of a tet; and where a vertex goes that was worth its tets once.
 constexpr double price_of_tet = 1.33, price_of_vertex = 0.5;
+/// How the price of a tet rises, sweep after sweep, while there are too many.
+constexpr double dearer = 4;
+constexpr int dearer_sweeps = 3;
 constexpr int fit_steps = 4;
 /// Probes for each tet, below which passes serve the probes alone, and what is between them suffers.
 constexpr double least_probes = 1.7;
@@ -47,7 +50,7 @@ class Refinement {
     const ProbeOptions enough = projected(enough_probes(double(options_.tets), options_.rounds));
     place_probes(original_, enough, job_, mesh_);
     if (options_.follows_field) follow_field();
-    insert(before_lowering(options_.tets) - std::int64_t(mesh_.count()));
+    insert(before_lowering(options_.tets) - count());
     fit_values(fit_steps, job_, mesh_);
     if (enough.most_vertices < double(original_.points.size())) place_probes(original_, every_vertex(), job_, mesh_);
     if (options_.bound > 0)
@@ -83,7 +86,7 @@ class Refinement {
       const bool last = round + 1 == options_.rounds;
       if (!last) remove();
       const std::size_t first = mesh_.points.size();
-      insert((before_lowering(options_.tets) - std::int64_t(mesh_.count())) / (last ? 1 : 2));
+      insert((before_lowering(options_.tets) - count()) / (last ? 1 : 2));
       move(first);
       flip();
       move(0);
@@ -91,12 +94,19 @@ class Refinement {
   }
 
   void move(std::size_t first) { move_vertices(first, job_, mesh_); }
-  void flip() { flip_tets(price_of_tet * mean_error(), job_, mesh_); }
+  /// More faces become edges than edges faces; where that makes too many tets, a tet has to gain more.
+  void flip() {
+    double price = price_of_tet * mean_error();
+    flip_tets(price, job_, mesh_);
+    for (int i = 0; i < dearer_sweeps && count() > before_lowering(options_.tets); i++)
+      flip_tets(price *= dearer, job_, mesh_);
+  }
   void remove() { remove_vertices(price_of_vertex * mean_error(), job_, mesh_); }
   void insert(std::int64_t tets) {
     if (tets > 0) insert_vertices(tets, job_, mesh_);
   }
 
+  std::int64_t count() const { return std::int64_t(mesh_.count()); }
   double mean_error() const { return mesh_.total_error() / double(mesh_.count()); }
 
   void count_points() {

@@ -80,8 +80,8 @@ void SolidComplex::find_neighbours(Job &job) {
   Array<CollapseRoom> rooms(&job.memory);
   rooms.reserve(parts);
   for (std::size_t i = 0; i < parts; i++) rooms.emplace_back(job.memory);
-  job.parallel.for_parts(points.size(), [&](std::size_t begin, std::size_t end) {
-    CollapseRoom &room = rooms[begin * parts / points.size()];
+  job.parallel.for_parts(points.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
+    CollapseRoom &room = rooms[part];
     Array<std::int32_t> seen_by(points.size(), -1, &job.memory);
     for (std::size_t v = begin; v < end; v++) {
       if (v % 4096 == 0) job.poll(0);
