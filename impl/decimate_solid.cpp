@@ -6,6 +6,7 @@
 
 #include "deviation.hpp"
 #include "solid_blocks.hpp"
+#include "solid_costs.hpp"
 #include "solid_rules.hpp"
 #include "solid_state.hpp"
 
@@ -47,6 +48,7 @@ class SolidDecimator {
         job_(job),
         mesh_(std::move(mesh)),
         progress_(std::move(progress)),
+        costs_(mesh_, progress_),
         states_(states),
         count_(std::int64_t(mesh_.tets.size())),
         blocks_(mesh_.points.size(), job.memory),
@@ -120,53 +122,18 @@ class SolidDecimator {
   CheapestEdge &cheapest(std::int32_t v) { return progress_.cheapest[std::size_t(v)]; }
   const CheapestEdge &cheapest(std::int32_t v) const { return progress_.cheapest[std::size_t(v)]; }
 
-  // ---- Costs
-
-  /// An edge is looked at from one end, the one that moved last.
-  bool owns(std::int32_t v, std::int32_t u) const {
-    const int at = progress_.moved[std::size_t(v)], other_at = progress_.moved[std::size_t(u)];
-    return at != other_at ? at > other_at : v < u;
-  }
-
-  void find_cheapest_edge(std::int32_t v, double more_than) {
-    CheapestEdge found;
-    found.round = progress_.round;
-    for (std::int32_t u : mesh_.neighbours.of(v)) {
-      if (!owns(v, u)) continue;
-      const BestOfEdge best = mesh_.cost(v, u);
-      if (best.cost > more_than && best.cost < found.cost) found = {best.cost, best.t, u, progress_.round};
-    }
-    cheapest(v) = found;
-  }
-
-  void find_cheapest_edges() {
-    const Array<std::int32_t> &changed = progress_.changed;
-    job_.parallel.for_blocks(changed.size(), 64, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; i++) find_cheapest_edge(changed[i], -infinity);
-      job_.poll(0);
-    });
-  }
-
-  /// Its other end may have moved or gone since.
-  bool is_known(const CheapestEdge &edge) const {
-    return edge.other >= 0 && mesh_.has_vertex(edge.other) && progress_.moved[std::size_t(edge.other)] < edge.round;
-  }
-
   // ---- Rounds
 
   /// What an edge of the round may cost. Towards the end rounds get smaller, so that the last collapses are the
   /// cheapest.
   double limit_of_round() {
-    find_cheapest_edges();
-    Array<double> costs(&job_.memory);
-    for (std::int32_t v : left_)
-      if (cheapest(v).cost < infinity) costs.push_back(cheapest(v).cost);
-    if (costs.empty()) return infinity;
+    constexpr std::size_t enough = 4096;  // of a sample
+    costs_.find_changed(job_);
     const double most = part_of_round * double(left_.size()), needed = 1 + double(count_ - target_) / tets_a_collapse;
     progress_.allow(double(count_) - most * tets_a_collapse);
-    const auto last = costs.begin() + std::ptrdiff_t(std::min(std::size_t(std::min(most, needed)), costs.size() - 1));
-    std::nth_element(costs.begin(), last, costs.end());
-    return *last;
+    const auto wanted = std::size_t(std::min(most, needed));
+    const double limit = costs_.of_cheapest(wanted, left_, wanted / enough + 1, job_.memory);
+    return limit < infinity ? limit : costs_.of_cheapest(wanted, left_, 1, job_.memory);
   }
 
   void collapse_some(double limit) {
@@ -176,12 +143,25 @@ class SolidDecimator {
     blocks_.cut(mesh_, left_, progress_.round, most_blocks(items.size()), job_);
     for (std::int32_t v : items) works_[blocks_.of(v)].items.push_back(v);
     const double share = double(count_ - target_) / double(items.size());
-    job_.parallel.for_blocks(blocks_.count(), 1, [&](std::size_t b, std::size_t) {
+    const Array<std::size_t> order = longest_first();
+    job_.parallel.for_blocks(order.size(), 1, [&](std::size_t i, std::size_t) {
+      const std::size_t b = order[i];
       Work &work = works_[b];
       work.most = std::int64_t(std::ceil(share * double(work.items.size())));
       collapse_in_block(limit, work, rooms_[b]);
     });
     take_over(items.size());
+  }
+
+  /// The blocks: the last ones to be done are short, so that threads end at about the same time.
+  Array<std::size_t> longest_first() {
+    Array<std::size_t> order(blocks_.count(), 0, &job_.memory);
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      const std::size_t of_a = works_[a].items.size(), of_b = works_[b].items.size();
+      return of_a != of_b ? of_a > of_b : a < b;
+    });
+    return order;
   }
 
   /// Few are soon done; what bounds the deviation is one for all; and where most wait, one block gets on.
@@ -247,7 +227,7 @@ class SolidDecimator {
   /// The cheapest admissible one of an edge of v within the limit. A vertex moves once a round.
   bool find(std::int32_t v, double limit, SolidCollapse<m> &collapse) {
     if (!mesh_.has_vertex(v) || progress_.moved[std::size_t(v)] == progress_.round || waits(v)) return false;
-    if (!is_known(cheapest(v))) find_cheapest_edge(v, -infinity);
+    if (!costs_.is_known(cheapest(v))) costs_.find_cheapest(v);
     if (!(cheapest(v).cost <= limit) || waits(cheapest(v).other)) return false;
     return is_admissible(v, cheapest(v), collapse) || find_dearer(v, limit, collapse);
   }
@@ -261,7 +241,7 @@ class SolidDecimator {
     CheapestEdge later;
     later.round = stuck;
     for (std::int32_t u : mesh_.neighbours.of(v)) {
-      if (!owns(v, u)) continue;
+      if (!costs_.owns(v, u)) continue;
       const BestOfEdge best = mesh_.cost(v, u);
       if (best.cost > tried && best.cost <= limit) dearer.push({best.cost, best.t, u, progress_.round});
       if (best.cost > limit && best.cost < later.cost) later = {best.cost, best.t, u, progress_.round};
@@ -322,7 +302,7 @@ class SolidDecimator {
     const std::int32_t v = collapse.edge.stays;
     if (deviation_ && collapse.of_boundary) {
       if (deviation_->is_passed(collapse.star)) {
-        find_cheapest_edge(collapse.found_at, cheapest(collapse.found_at).cost);
+        costs_.find_cheapest(collapse.found_at, cheapest(collapse.found_at).cost);
         return;
       }
       deviation_->move_on(collapse.star);
@@ -345,6 +325,7 @@ class SolidDecimator {
   Job &job_;
   SolidMesh<m> mesh_;
   SolidProgress progress_;
+  SolidCosts<m> costs_;
   Array<SolidState<m>> *states_;
   std::int64_t count_;  // of the tets that are left
   SolidBlocks blocks_;

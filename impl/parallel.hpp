@@ -2,6 +2,7 @@
 #pragma once
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+#include <tbb/task_group.h>
 
 #include <algorithm>
 #include <atomic>
@@ -18,8 +19,8 @@ class Parallel {
   }
   int threads() const noexcept { return threads_; }
 
-  /// body(begin, end) for consecutive blocks of `block` indices that cover [0, count). The blocks do not depend
-  /// on the number of threads, so a sum per block, added up in block order, is deterministic.
+  /// body(begin, end) for consecutive blocks of `block` indices that cover [0, count), begun in order. The blocks do
+  /// not depend on the number of threads, so a sum per block, added up in block order, is deterministic.
   template <class Body>
   void for_blocks(std::size_t count, std::size_t block, const Body &body) const {
     const std::size_t blocks = (count + block - 1) / block;
@@ -29,13 +30,14 @@ class Parallel {
       return;
     }
     // oneTBB's fork and join order everything; these say so in terms that a race detector sees, too.
-    std::atomic<bool> begun{false};
-    std::atomic<std::size_t> done{0};
-    begun.store(true, std::memory_order_release);
+    std::atomic<std::size_t> next, done{0};
+    next.store(0, std::memory_order_release);
     arena_->execute([&] {
-      tbb::parallel_for(std::size_t(0), blocks, [&](std::size_t b) {
-        static_cast<void>(begun.load(std::memory_order_acquire));
-        run(b);
+      tbb::parallel_for(0, threads_, [&](int) {
+        for (std::size_t b; (b = next.fetch_add(1, std::memory_order_acq_rel)) < blocks;) {
+          if (tbb::is_current_task_group_canceling()) break;
+          run(b);
+        }
         done.fetch_add(1, std::memory_order_release);
       });
     });

@@ -46,20 +46,8 @@ double change_of(const MeshView &mesh, const Tet &t) {
   return change;
 }
 
-/// Takes each of a sequence by its share, evenly: whenever those that went by add up to one more.
-class EvenShares {
- public:
-  /// How often the next one is taken.
-  int take(double share) {
-    due_ += share;
-    const double whole = std::floor(due_);
-    due_ -= whole;
-    return int(whole);
-  }
-
- private:
-  double due_ = 0.5;
-};
+/// Of those that add up to `due`, each by its share: one whenever they are one more.
+std::size_t taken(double due) { return std::size_t(0.5 + due); }
 
 template <std::size_t m>
 void add_vertices(const MeshView &original, double most, Memory &memory, Array<Probe<m>> &probes) {
@@ -68,9 +56,12 @@ void add_vertices(const MeshView &original, double most, Memory &memory, Array<P
     for (std::int32_t v : t) used[std::size_t(v)] = 1;
   const double share = std::min(1.0, most / double(std::count(used.begin(), used.end(), 1)));
   const Span<const Values<m>> values = original.values<m>();
-  EvenShares shares;
-  for (std::size_t v = 0; v < used.size(); v++)
-    if (used[v] && (share == 1 || shares.take(share))) probes.push_back({original.points[v], values[v]});
+  double due = 0;
+  for (std::size_t v = 0; v < used.size(); v++) {
+    if (!used[v]) continue;
+    due += share;
+    if (taken(due) > probes.size()) probes.push_back({original.points[v], values[v]});
+  }
 }
 
 /// At a random place of tet t, uniformly: the gaps between three sorted numbers are its weights.
@@ -96,30 +87,59 @@ double inner_scale(double tets, double most) {
   return std::min(more, most / (tets * (everywhere + by_change)));
 }
 
-/// Of the tets; 0 where, of the largest doubles, it is no number.
+/// How many probes are due inside the first tets of a mesh.
+class InnerShares {
+ public:
+  static constexpr std::size_t part = 16384;
+
+  InnerShares(Span<const double> change_of_parts, std::size_t tets, double most) {
+    const double change = std::accumulate(change_of_parts.begin(), change_of_parts.end(), 0.0), count = double(tets);
+    const double scale = inner_scale(count, most);
+    per_tet_ = scale * everywhere;
+    if (change > 0 && std::isfinite(change)) per_change_ = scale * by_change * count / change;
+  }
+  double due(std::size_t tets, double change) const {
+    return per_tet_ * double(tets) + (per_change_ > 0 ? per_change_ * change : 0);
+  }
+
+ private:
+  double per_tet_, per_change_ = 0;  // 0, too, where the sum, of the largest doubles, is no number
+};
+
+/// The sum for each part of the tets.
 template <std::size_t m>
-double mean_change(const MeshView &original, Job &job) {
-  constexpr std::size_t many = 16384;
-  Array<double> sums(original.tets.size() / many + 1, 0.0, &job.memory);
-  job.parallel.for_blocks(original.tets.size(), many, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; t++) sums[begin / many] += change_of<m>(original, original.tets[t]);
+Array<double> changes_of_parts(const MeshView &original, Job &job) {
+  constexpr std::size_t part = InnerShares::part;
+  Array<double> sums(original.tets.size() / part + 1, 0.0, &job.memory);
+  job.parallel.for_blocks(original.tets.size(), part, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; t++) sums[begin / part] += change_of<m>(original, original.tets[t]);
     job.poll(0);
   });
-  const double sum = std::accumulate(sums.begin(), sums.end(), 0.0);
-  return std::isfinite(sum) ? sum / double(original.tets.size()) : 0;
+  return sums;
 }
 
 template <std::size_t m>
 void add_inner(const MeshView &original, double most, Job &job, Array<Probe<m>> &probes) {
-  const double mean = mean_change<m>(original, job), count = double(original.tets.size());
-  const double scale = inner_scale(count, most);
-  EvenShares shares;
-  for (std::size_t i = 0; i < original.tets.size(); i++) {
-    if (i % 16384 == 0) job.poll(0);
-    const Tet &t = original.tets[i];
-    const double share = scale * (everywhere + (mean > 0 ? by_change * change_of<m>(original, t) / mean : 0));
-    for (int n = shares.take(share); n > 0; n--) probes.push_back(probe_inside<m>(original, t, probes.size()));
-  }
+  constexpr std::size_t part = InnerShares::part;
+  const Array<double> changes = changes_of_parts<m>(original, job);
+  const std::size_t tets = original.tets.size();
+  const InnerShares shares(changes, tets, most);
+  Array<double> due_before(1, 0.0, &job.memory);
+  for (std::size_t i = 0; i < changes.size(); i++)
+    due_before.push_back(due_before.back() + shares.due(std::min(part, tets - i * part), changes[i]));
+  const std::size_t before = probes.size();
+  probes.resize(before + taken(due_before.back()));
+  job.parallel.for_blocks(tets, part, [&](std::size_t begin, std::size_t end) {
+    const double due = due_before[begin / part];
+    std::size_t next = taken(due);
+    double change = 0;  // comes to the same as before, so that no part takes another's place
+    for (std::size_t t = begin; t < end; t++) {
+      change += change_of<m>(original, original.tets[t]);
+      const std::size_t last = taken(due + shares.due(t + 1 - begin, change));
+      for (; next < last; next++) probes[before + next] = probe_inside<m>(original, original.tets[t], before + next);
+    }
+    job.poll(0);
+  });
 }
 
 /// Finds tets by walking, and where the walk meets the boundary, by a tree.

@@ -107,18 +107,18 @@ bool share_chord(const SolidComplex &mesh, const Ring &ring, const SolidEdge &ed
 
 /// Whether tet t, with its corner v at another place, would turn over, or be flat and flatter than it is.
 bool is_flattened(const SolidComplex &mesh, const Tet &t, std::int32_t v, const Vec3 &place) {
-  const double limit2 = mesh.measures.least_shape2;
-  const Vec3 before[4] = {mesh.point(t[0]), mesh.point(t[1]), mesh.point(t[2]), mesh.point(t[3])};
-  const Vec3 after[4] = {t[0] == v ? place : before[0], t[1] == v ? place : before[1], t[2] == v ? place : before[2],
-                         t[3] == v ? place : before[3]};
-  const double volume = det(after[0], after[1], after[2], after[3]);
+  const auto &face = tet_face[v == t[0] ? 0 : v == t[1] ? 1 : v == t[2] ? 2 : 3];
+  const auto corner = [&](int i) { return mesh.point(t[std::size_t(face[i])]); };
+  const Vec3 a = corner(0), b = corner(1), c = corner(2);
+  const Vec3 to_a = a - place, to_b = b - place, to_c = c - place;
+  const double volume = glm::dot(to_a, glm::cross(to_b, to_c));
   if (!(volume > 0)) return true;
   // No edge is longer than twice the longest one at a corner: of most tets that says enough.
-  const double most =
-      4 * std::max({length2(after[1] - after[0]), length2(after[2] - after[0]), length2(after[3] - after[0])});
+  const double most = 4 * std::max({length2(to_a), length2(to_b), length2(to_c)});
+  const double limit2 = mesh.measures.least_shape2;
   if (volume * volume > limit2 * most * most * most) return false;
-  const double shape = shape2(after[0], after[1], after[2], after[3]);
-  return shape < limit2 && shape < shape2(before[0], before[1], before[2], before[3]);
+  const double shape = shape2(place, a, b, c);
+  return shape < limit2 && shape < shape2(mesh.point(v), a, b, c);
 }
 
 template <class Tets>

@@ -1,0 +1,67 @@
+// What the edges of a solid cost to collapse, as far as it is known.
+#pragma once
+#include <algorithm>
+
+#include "solid_state.hpp"
+
+namespace tetlod {
+
+template <std::size_t m>
+class SolidCosts {
+ public:
+  SolidCosts(const SolidMesh<m> &mesh, SolidProgress &progress) : mesh_(mesh), progress_(progress) {}
+
+  /// An edge is looked at from one end, the one that moved last.
+  bool owns(std::int32_t v, std::int32_t u) const {
+    const int at = progress_.moved[std::size_t(v)], other_at = progress_.moved[std::size_t(u)];
+    return at != other_at ? at > other_at : v < u;
+  }
+
+  /// Its other end may have moved or gone since.
+  bool is_known(const CheapestEdge &edge) const {
+    return edge.other >= 0 && mesh_.has_vertex(edge.other) && progress_.moved[std::size_t(edge.other)] < edge.round;
+  }
+
+  /// Of those of v that cost more than that.
+  void find_cheapest(std::int32_t v, double more_than = -infinity) {
+    CheapestEdge found;
+    found.round = progress_.round;
+    for (std::int32_t u : mesh_.neighbours.of(v)) mesh_.prefetch(u);
+    for (std::int32_t u : mesh_.neighbours.of(v)) {
+      if (!owns(v, u)) continue;
+      const BestOfEdge best = mesh_.cost(v, u);
+      if (best.cost > more_than && best.cost < found.cost) found = {best.cost, best.t, u, progress_.round};
+    }
+    progress_.cheapest[std::size_t(v)] = found;
+  }
+
+  /// The cheapest of each vertex whose edges cost something else than they did.
+  void find_changed(Job &job) {
+    const Array<std::int32_t> &changed = progress_.changed;
+    job.parallel.for_blocks(changed.size(), 64, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; i++) find_cheapest(changed[i]);
+      job.poll(0);
+    });
+  }
+
+  /// What the cheapest edges of so many vertices cost at most, by every step-th vertex; infinite where none of these
+  /// has an edge that may collapse.
+  double of_cheapest(std::size_t wanted, Span<const std::int32_t> vertices, std::size_t step, Memory &memory) const {
+    Array<double> costs(&memory);
+    for (std::size_t i = 0; i < vertices.size(); i += step) {
+      const double cost = progress_.cheapest[std::size_t(vertices[i])].cost;
+      if (cost < infinity) costs.push_back(cost);
+    }
+    if (costs.empty()) return infinity;
+    const auto last = costs.begin() + std::ptrdiff_t(std::min(wanted / step, costs.size() - 1));
+    std::nth_element(costs.begin(), last, costs.end());
+    return *last;
+  }
+
+ private:
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  const SolidMesh<m> &mesh_;
+  SolidProgress &progress_;
+};
+
+}  // namespace tetlod
