@@ -4,7 +4,9 @@
 #include <cmath>
 #include <cstdint>
 
+#include "decimate_solid.hpp"
 #include "pipeline.hpp"
+#include "refine.hpp"
 
 namespace tetlod {
 
@@ -14,6 +16,7 @@ inline bool as_published(const Options &options) { return options.target_ratio <
 constexpr double first_ratio = 0.05;
 
 inline double ratio_of(const Options &options) { return options.target_ratio > 0 ? options.target_ratio : first_ratio; }
+inline bool is_sized_by_bound(const Options &options) { return options.target_ratio <= 0 && options.max_error > 0; }
 
 /// With fewer tets, all that can be done is done soon.
 constexpr double small_mesh = 1e5;
@@ -71,6 +74,33 @@ inline Budget budget_of(double ratio, const Report &report) {
   const double left = (1 - spare) * double(budget.tets) - kept / 2 * tets_a_boundary_point;
   budget.samples = std::size_t(std::max(left / tets_a_sample, 0.0));
   return budget;
+}
+
+/// When TetGen finds no way with a boundary, one with more edges may have it; the last is the original's.
+inline double less_decimated(double sigma) { return std::min(std::max(2 * sigma, 0.1), 1.0); }
+
+/// Where edges collapse, a bound without a size begins where the largest error is about twice the bound, which takes
+/// fewer tets in the end than other beginnings: when collapses cost more than the square of so many times the bound, of
+/// the diagonal; by experience. With looser bounds than that, and with a smaller part of the tets, the shape would
+/// suffer; above the larger part, insertions where they are needed take fewer.
+constexpr double cost_of_bound = 40, loosest_bound = 0.05, least_ratio = 0.01, enough_ratio = 0.15;
+
+/// Tets.
+inline double most_at_first(const Budget &budget) { return enough_ratio / first_ratio * double(budget.tets); }
+
+/// by_cost: as far as suits the bound; else to the budget.
+inline SolidOptions solid_options(const Options &options, const Budget &budget, bool by_cost, double diagonal,
+                                  Span<const std::uint8_t> kept) {
+  SolidOptions solid;
+  solid.kept = kept;
+  solid.tets = before_lowering(budget.tets, options.max_error);
+  solid.max_deviation = options.max_deviation * diagonal;
+  if (!by_cost) return solid;
+  const double length = cost_of_bound * std::min(options.max_error, loosest_bound) * diagonal;
+  solid.tets = std::int64_t(least_ratio / first_ratio * double(budget.tets));
+  solid.enough = std::int64_t(most_at_first(budget));
+  solid.dearest = length * length;
+  return solid;
 }
 
 }  // namespace tetlod

@@ -45,6 +45,8 @@ class SolidDecimator {
       : original_(original),
         fields_(fields),
         target_(options.tets),
+        enough_(options.enough),
+        dearest_(options.dearest),
         job_(job),
         mesh_(std::move(mesh)),
         progress_(std::move(progress)),
@@ -69,6 +71,7 @@ class SolidDecimator {
   void run() {
     const double surplus = double(count_ - target_);
     for (double limit; count_ > target_ && (limit = limit_of_round()) < infinity;) {
+      if (limit > dearest_ && count_ < enough_) break;
       job_.poll(1 - double(count_ - target_) / surplus);
       collapse_some(limit);
       drop_gone(left_);
@@ -321,7 +324,8 @@ class SolidDecimator {
 
   const MeshView &original_;
   const FieldsAsLengths<m> &fields_;
-  std::int64_t target_;
+  std::int64_t target_, enough_;
+  double dearest_;
   Job &job_;
   SolidMesh<m> mesh_;
   SolidProgress progress_;
@@ -359,7 +363,8 @@ std::int64_t decimate_solid(const MeshView &original, const Boundary &boundary, 
   return with_fields(original.fields, [&](auto m) {
     const FieldsAsLengths<m> fields(original, box_of(surface.points).diagonal());
     const bool keeps_states = options.max_deviation <= 0;
-    const SolidState<m> *const state = keeps_states ? history.before<m>(options.tets, job.memory) : nullptr;
+    const SolidState<m> *const state =
+        keeps_states ? history.before<m>(options.tets, options.enough, job.memory) : nullptr;
     SolidMesh<m> solid = state ? SolidMesh<m>(SolidRemains<m>(state->remains, job.memory), job)
                                : begin_with<m>(original, boundary, options, fields.scales, job);
     SolidProgress progress = state ? SolidProgress(state->progress, job.memory)

@@ -1,6 +1,8 @@
 // Past the paper: a coarse mesh by collapsing edges of the original, inner ones and those of the boundary alike, where
 // that loses least of the field [Garland and Zhou 2005]; in rounds, each of many collapses that are apart.
 #pragma once
+#include <limits>
+
 #include "extract_boundary.hpp"
 #include "job.hpp"
 #include "mesh.hpp"
@@ -9,17 +11,21 @@
 namespace tetlod {
 
 struct SolidOptions {
-  std::int64_t tets = 0;              ///< how many there shall be
+  std::int64_t tets = 0;  ///< how many there shall be
+  /// Sooner, with fewer tets than `enough`, it ends where collapses cost more than that: the square of a length.
+  double dearest = std::numeric_limits<double>::infinity();
+  std::int64_t enough = 0;
   double max_deviation = 0;           ///< as in DecimateOptions
   Span<const std::uint8_t> kept;      ///< original vertices that keep place and value; empty: none
   Span<const std::uint8_t> touching;  ///< original vertices where the solid touches itself; empty: none
 };
 
 /// `surface` is the boundary with points of its own. mesh: what is left, as many tets as there shall be, or more where
-/// no further collapse is admissible; points, values, tets and boundary, of the original's topology and, to 1 %, its
-/// volume. origin: the original vertex that each point still is, or -1. Tets that were flat may be left, and the
-/// boundary may cross itself: to be looked at. history: of this mesh, with these values and flags; it shortens the way
-/// to the same bytes, and gets more states, but with max_deviation. Returns how many collapses it saved.
+/// no further collapse is admissible, or cheap enough; points, values, tets and boundary, of the original's topology
+/// and, to 1 %, its volume. origin: the original vertex that each point still is, or -1. Tets that were flat may be
+/// left, and the boundary may cross itself: to be looked at. history: of this mesh, with these values and flags; it
+/// shortens the way to the same bytes, and gets more states, but with max_deviation. Returns how many collapses it
+/// saved.
 std::int64_t decimate_solid(const MeshView &original, const Boundary &boundary, const Surface &surface,
                             const SolidOptions &options, SolidHistory &history, Job &job, TetMesh &mesh,
                             Array<std::int32_t> &origin);

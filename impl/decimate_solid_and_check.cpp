@@ -45,7 +45,7 @@ std::string check_surface_of(const SurfaceTopology &topology, std::size_t fields
 std::string check(const SolidOptions &options, const SurfaceTopology &topology, std::size_t fields, Job &job,
                   CoarseSolid &coarse) {
   TetMesh &mesh = coarse.mesh;
-  if (double(mesh.tets.size()) > (1 + most_missed) * double(options.tets))
+  if (options.enough == 0 && double(mesh.tets.size()) > (1 + most_missed) * double(options.tets))
     return text("no edge is left to collapse at %zu tets", mesh.tets.size());
   std::string wrong = make_all_positive(mesh.points, {mesh.tets.data(), mesh.tets.size()}, 1, job);
   if (wrong.empty()) wrong = check_volume(mesh.points, mesh.tets, mesh.boundary, 1, job);

@@ -68,7 +68,8 @@ class Pipeline {
     of.fields = double(original_.view.fields);
     of.tets = std::max(double(budget_.tets), tets_for_bound(original_.view, bound, job_));
     of.points = of.tets / tets_a_point;
-    const ProbeOptions enough = enough_probes(double(budget_.tets), rounds_of(options_, report_));
+    const double first = is_sized_by_bound(options_) ? std::min(of.tets, most_at_first(budget_)) : double(budget_.tets);
+    const ProbeOptions enough = enough_probes(first, rounds_of(options_, report_));
     of.probes = double(expected_probes(original_.view, enough));
     return of;
   }
@@ -86,9 +87,6 @@ class Pipeline {
   }
 
  private:
-  /// When TetGen finds no way with a boundary, one with more edges may have it; the last is the original's.
-  static double less_decimated(double sigma) { return std::min(std::max(2 * sigma, 0.1), 1.0); }
-
   /// As the paper does, but for how it comes to its parameters.
   void simplify(Worker &worker) {
     while (!simplify_with(budget_.sigma, worker)) budget_.sigma = less_decimated(budget_.sigma);
@@ -96,8 +94,9 @@ class Pipeline {
 
   /// Where the bound does not hold because the boundary is too coarse, one with more triangles follows.
   void run_to_target(Worker &worker) {
-    for (double ratio = ratio_of(options_);; ratio *= 2) {
-      const bool collapsed = collapses_edges(options_, report_) && collapse_edges();
+    bool by_cost = is_sized_by_bound(options_);
+    for (double ratio = ratio_of(options_);; ratio *= 2, by_cost = false) {
+      const bool collapsed = collapses_edges(options_, report_) && collapse_edges(by_cost);
       if (!collapsed) remesh_to_target(worker);
       if (refine(!collapsed || options_.effort == effort_accurate) == 0) return;
       const double sigma = budget_.sigma;
@@ -114,12 +113,12 @@ class Pipeline {
     reconstruct_field();
   }
 
-  /// False: that way leads to no sound mesh of the size.
-  bool collapse_edges() {
+  /// To the budget, or, by cost, to what suits the bound. False: that way leads to no sound mesh of the size.
+  bool collapse_edges(bool by_cost) {
     describe_boundary(prepared_.topology(job_), report_);
     const StageTimer timer(Stage::decimate, job_, report_);
     const double diagonal = original_.box.diagonal();
-    const SolidOptions options{before_lowering(budget_.tets), options_.max_deviation * diagonal, original_.flags, {}};
+    const SolidOptions options = solid_options(options_, budget_, by_cost, diagonal, original_.flags);
     CoarseSolid coarse(job_.memory);
     const std::string wrong =
         decimate_solid_and_check(original_.view, boundary_, prepared_.surface(job_), prepared_.topology(job_), options,
@@ -130,6 +129,7 @@ class Pipeline {
       return false;
     }
     mesh_ = std::move(coarse.mesh);
+    if (by_cost) budget_.tets = std::int64_t(mesh_.tets.size());
     origin_ = std::move(coarse.origin);
     topology_ = std::move(coarse.topology);
     report_.max_deviation = coarse.deviation / diagonal;

@@ -17,10 +17,11 @@ struct RefineOptions {
 };
 
 /// Of so many tets, those that there shall be before the largest errors get the rest: for a hundredth of the tets the
-/// largest is a third less, and the mean no more. Of few tets all: a vertex more, on an edge, may bring a dozen.
-inline std::int64_t before_lowering(std::int64_t tets) {
+/// largest is a third less, and the mean no more. Of few tets all: a vertex more, on an edge, may bring a dozen. With a
+/// bound the largest errors get as many as they need.
+inline std::int64_t before_lowering(std::int64_t tets, double bound) {
   constexpr std::int64_t part = 100, few = 500;
-  return tets < few ? tets : tets - tets / part;
+  return tets < few || bound > 0 ? tets : tets - tets / part;
 }
 
 struct RefineReport {

@@ -54,12 +54,12 @@ class SolidHistory {
   void begin(const MeshView &original, Memory &memory);
   void forget(Memory &memory) { *this = SolidHistory(memory); }
 
-  /// The coarsest of the states that the rounds to a target go through; null: none is kept.
+  /// The coarsest of the states that the rounds to a target go through, of so many tets at least; null: none is kept.
   template <std::size_t m>
-  const SolidState<m> *before(std::int64_t target, Memory &memory) {
+  const SolidState<m> *before(std::int64_t target, std::int64_t tets, Memory &memory) {
     const SolidState<m> *last = nullptr;
     for (const SolidState<m> &state : states<m>(memory))
-      if (target <= state.progress.largest_target) last = &state;
+      if (target <= state.progress.largest_target && std::int64_t(state.remains.tets.size()) >= tets) last = &state;
     return last;
   }
 

@@ -178,15 +178,28 @@ TEST_F(Reuse, TargetsOfTheSameValues) {
 }
 
 /// Whichever size comes first, and in the rounds of a bound.
-TEST_F(Reuse, CollapsesOfTheSameValues) {
-  cube = Cube(12);
-  const auto level = [this](double ratio, double bound) {
+class CollapseReuse : public Reuse {
+ protected:
+  CollapseReuse() { cube = Cube(12); }
+
+  /// How many collapses were taken over.
+  std::int64_t level(double ratio, double bound) {
     options = {[=](tetlod_context *of) {
       tetlod_set_real(of, TETLOD_OPT_TARGET_RATIO, ratio);
       tetlod_set_real(of, TETLOD_OPT_MAX_ERROR, bound);
     }};
     return expect_fresh_bytes().reused_collapses;
-  };
+  }
+};
+
+/// A bound alone ends its collapses by their cost: it does not begin with fewer tets than it may end with.
+TEST_F(CollapseReuse, Bounds) {
+  EXPECT_EQ(level(0.02, 0), 0);
+  for (double bound : {0.001, 0.01, 0.1, 0.003}) EXPECT_GT(level(0, bound), 0) << bound;
+  EXPECT_GT(level(0.02, 0), 0);
+}
+
+TEST_F(CollapseReuse, Sizes) {
   EXPECT_EQ(level(0.2, 0), 0);
   const std::int64_t of_same = level(0.2, 0);
   EXPECT_GT(of_same, 0);

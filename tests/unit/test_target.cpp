@@ -141,6 +141,22 @@ TEST_F(TargetedRun, HoldsItsBound) {
   }
 }
 
+/// Begun where collapses get dear, in place of a given size: a loose bound takes fewer tets, a close one not many more.
+TEST_F(TargetedRun, ABoundTakesFewTets) {
+  Mesh original = kuhn_cube(16);
+  set_scalars(original, waves);
+  for (double bound : {0.1, 0.03, 0.01, 0.003}) {
+    options.max_error = bound;
+    options.target_ratio = 0.05;
+    simplify(original);
+    const auto of_given_size = double(report().tets_out);
+    options.target_ratio = 0;
+    simplify(original);
+    EXPECT_LE(report().max_error, bound);
+    EXPECT_LT(double(report().tets_out), (bound > 0.05 ? 0.5 : 1.05) * of_given_size) << bound;
+  }
+}
+
 /// Of walls that are plane but for rounding: vertices of the result come to be almost, but not quite, at others.
 TEST_F(TargetedRun, HoldsItsBoundOnRoundedWalls) {
   options.max_error = 0.001;
