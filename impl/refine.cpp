@@ -98,8 +98,7 @@ class Refinement {
   void flip() {
     double price = price_of_tet * mean_error();
     flip_tets(price, job_, mesh_);
-    for (int i = 0; i < dearer_sweeps && count() > before_lowering(); i++)
-      flip_tets(price *= dearer, job_, mesh_);
+    for (int i = 0; i < dearer_sweeps && count() > before_lowering(); i++) flip_tets(price *= dearer, job_, mesh_);
   }
   void remove() { remove_vertices(price_of_vertex * mean_error(), job_, mesh_); }
   void insert(std::int64_t tets) {
