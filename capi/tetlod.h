@@ -325,9 +325,9 @@ enum {
                                    would be wrong, both are remeshed, and one pass follows */
   TETLOD_OPT_MAX_ERROR = 22,    /* real, "max-error": bound of the error at every original vertex, as a fraction of the
                                    values' range, for every field that steers; one that lies outside the result is
-                                   compared at the nearest point of its boundary. Begins with target-ratio (0: 0.05),
-                                   and takes what it needs beyond it; 0, the default: none. Where it cannot be held:
-                                   TETLOD_ERR_MAX_ERROR */
+                                   compared at the nearest point of its boundary. Begins with target-ratio (0: where the
+                                   error is about twice the bound, 0.01 at least; of samples 0.05), and takes what it
+                                   needs; 0, the default: none. Where it cannot be held: TETLOD_ERR_MAX_ERROR */
   TETLOD_OPT_MAX_DEVIATION = 23 /* real, "max-deviation": bound of the distance between the boundaries of original and
                                    result, at vertices and middles of edges and triangles of both, as a fraction of the
                                    diagonal; more of the boundary is kept than asked for. Of triangles that are divided
