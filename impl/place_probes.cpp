@@ -93,17 +93,18 @@ class InnerShares {
   static constexpr std::size_t part = 16384;
 
   InnerShares(Span<const double> change_of_parts, std::size_t tets, double most) {
-    const double change = std::accumulate(change_of_parts.begin(), change_of_parts.end(), 0.0), count = double(tets);
-    const double scale = inner_scale(count, most);
+    const double change = std::accumulate(change_of_parts.begin(), change_of_parts.end(), 0.0);
+    const double scale = inner_scale(double(tets), most);
     per_tet_ = scale * everywhere;
-    if (change > 0 && std::isfinite(change)) per_change_ = scale * by_change * count / change;
+    by_changes_ = scale * by_change * double(tets);
+    if (std::isfinite(change)) all_changes_ = change;
   }
   double due(std::size_t tets, double change) const {
-    return per_tet_ * double(tets) + (per_change_ > 0 ? per_change_ * change : 0);
+    return per_tet_ * double(tets) + (all_changes_ > 0 ? by_changes_ * (change / all_changes_) : 0);
   }
 
  private:
-  double per_tet_, per_change_ = 0;  // 0, too, where the sum, of the largest doubles, is no number
+  double per_tet_, by_changes_, all_changes_ = 0;  // 0, too, where the sum, of the largest doubles, is no number
 };
 
 /// The sum for each part of the tets.

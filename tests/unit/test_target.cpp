@@ -100,6 +100,17 @@ TEST_F(TargetedRun, AConstantField) {
   expect_sound(original, 1e-3);
 }
 
+/// Of the least doubles there are, where a quotient of two is more than any.
+TEST_F(TargetedRun, ASubnormalField) {
+  Mesh original = kuhn_cube(8);
+  options.target_ratio = 0.2;
+  for (double scale : {1e-300, 1e-309, 1e-317}) {
+    set_scalars(original, [&](const Vec3 &p) { return scale * waves(p); });
+    simplify(original);
+    expect_sound(original, 1e-3);
+  }
+}
+
 /// Whatever values points have that no tet uses.
 TEST_F(TargetedRun, UnusedPointsHaveNoSay) {
   Mesh original = kuhn_cube(8);
