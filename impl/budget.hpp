@@ -4,9 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "decimate_solid.hpp"
 #include "pipeline.hpp"
-#include "refine.hpp"
 
 namespace tetlod {
 
@@ -16,7 +14,6 @@ inline bool as_published(const Options &options) { return options.target_ratio <
 constexpr double first_ratio = 0.05;
 
 inline double ratio_of(const Options &options) { return options.target_ratio > 0 ? options.target_ratio : first_ratio; }
-inline bool is_sized_by_bound(const Options &options) { return options.target_ratio <= 0 && options.max_error > 0; }
 
 /// With fewer tets, all that can be done is done soon.
 constexpr double small_mesh = 1e5;
@@ -42,6 +39,9 @@ struct Budget {
   std::int64_t tets = 0;
   double sigma = 0;
   std::size_t samples = 0;
+  /// Where edges collapse, and a bound decides: between so many tets it ends where collapses cost more than `dearest`.
+  std::int64_t least = 0, enough = 0;
+  double dearest = 0;
 };
 
 /// Tets that a sample and a boundary vertex bring, by experience.
@@ -83,24 +83,20 @@ inline double less_decimated(double sigma) { return std::min(std::max(2 * sigma,
 /// fewer tets in the end than other beginnings: when collapses cost more than the square of so many times the bound, of
 /// the diagonal; by experience. With looser bounds than that, and with a smaller part of the tets, the shape would
 /// suffer; above the larger part, insertions where they are needed take fewer.
-constexpr double cost_of_bound = 40, loosest_bound = 0.05, least_ratio = 0.01, enough_ratio = 0.15;
+inline Budget budget_for_bound(double max_error, double diagonal, const Report &report) {
+  constexpr double cost_of_bound = 40, loosest = 0.05, least = 0.01, enough = 0.15;
+  Budget budget = budget_of(first_ratio, report);
+  const double whole = double(budget.tets) / first_ratio,
+               length = cost_of_bound * std::min(max_error, loosest) * diagonal;
+  budget.least = std::int64_t(least * whole);
+  budget.enough = std::int64_t(enough * whole);
+  budget.dearest = length * length;
+  return budget;
+}
 
-/// Tets.
-inline double most_at_first(const Budget &budget) { return enough_ratio / first_ratio * double(budget.tets); }
-
-/// by_cost: as far as suits the bound; else to the budget.
-inline SolidOptions solid_options(const Options &options, const Budget &budget, bool by_cost, double diagonal,
-                                  Span<const std::uint8_t> kept) {
-  SolidOptions solid;
-  solid.kept = kept;
-  solid.tets = before_lowering(budget.tets, options.max_error);
-  solid.max_deviation = options.max_deviation * diagonal;
-  if (!by_cost) return solid;
-  const double length = cost_of_bound * std::min(options.max_error, loosest_bound) * diagonal;
-  solid.tets = std::int64_t(least_ratio / first_ratio * double(budget.tets));
-  solid.enough = std::int64_t(most_at_first(budget));
-  solid.dearest = length * length;
-  return solid;
+inline Budget first_budget(const Options &options, double diagonal, const Report &report) {
+  const bool sized = options.target_ratio > 0;
+  return sized ? budget_of(options.target_ratio, report) : budget_for_bound(options.max_error, diagonal, report);
 }
 
 }  // namespace tetlod

@@ -44,9 +44,7 @@ class SolidDecimator {
                  Array<SolidState<m>> *states, Job &job)
       : original_(original),
         fields_(fields),
-        target_(options.tets),
-        enough_(options.enough),
-        dearest_(options.dearest),
+        options_(options),
         job_(job),
         mesh_(std::move(mesh)),
         progress_(std::move(progress)),
@@ -69,15 +67,15 @@ class SolidDecimator {
   }
 
   void run() {
-    const double surplus = double(count_ - target_);
-    for (double limit; count_ > target_ && (limit = limit_of_round()) < infinity;) {
-      if (limit > dearest_ && count_ < enough_) break;
-      job_.poll(1 - double(count_ - target_) / surplus);
+    const double surplus = double(count_ - options_.tets);
+    for (double limit; count_ > options_.tets && (limit = limit_of_round()) < infinity;) {
+      if (count_ < options_.enough && limit > options_.dearest) break;
+      job_.poll(1 - double(count_ - options_.tets) / surplus);
       collapse_some(limit);
       drop_gone(left_);
       drop_gone(progress_.changed);
       progress_.round++;
-      if (states_ && count_ < progress_.next_closing && count_ > target_)
+      if (states_ && count_ < progress_.next_closing && count_ > options_.tets)
         close_gaps();
       else
         mesh_.tidy({rooms_.data(), rooms_.size()});
@@ -130,13 +128,11 @@ class SolidDecimator {
   /// What an edge of the round may cost. Towards the end rounds get smaller, so that the last collapses are the
   /// cheapest.
   double limit_of_round() {
-    constexpr std::size_t enough = 4096;  // of a sample
     costs_.find_changed(job_);
-    const double most = part_of_round * double(left_.size()), needed = 1 + double(count_ - target_) / tets_a_collapse;
+    const double most = part_of_round * double(left_.size()),
+                 needed = 1 + double(count_ - options_.tets) / tets_a_collapse;
     progress_.allow(double(count_) - most * tets_a_collapse);
-    const auto wanted = std::size_t(std::min(most, needed));
-    const double limit = costs_.of_cheapest(wanted, left_, wanted / enough + 1, job_.memory);
-    return limit < infinity ? limit : costs_.of_cheapest(wanted, left_, 1, job_.memory);
+    return costs_.of_cheapest(std::size_t(std::min(most, needed)), left_, job_.memory);
   }
 
   void collapse_some(double limit) {
@@ -145,7 +141,7 @@ class SolidDecimator {
       if (cheapest(v).cost <= limit) items.push_back(v);
     blocks_.cut(mesh_, left_, progress_.round, most_blocks(items.size()), job_);
     for (std::int32_t v : items) works_[blocks_.of(v)].items.push_back(v);
-    const double share = double(count_ - target_) / double(items.size());
+    const double share = double(count_ - options_.tets) / double(items.size());
     const Array<std::size_t> order = longest_first();
     job_.parallel.for_blocks(order.size(), 1, [&](std::size_t i, std::size_t) {
       const std::size_t b = order[i];
@@ -219,7 +215,7 @@ class SolidDecimator {
   /// Unless it is of this target alone, kept already, or would take memory that the run does not need without it.
   void keep_state(const SolidRemains<m> &remains) {
     const bool is_kept = !states_->empty() && states_->back().remains.tets.size() <= remains.tets.size();
-    if (is_kept || progress_.largest_target < target_) return;
+    if (is_kept || progress_.largest_target < options_.tets) return;
     const std::size_t of_lists = remains.bytes() / 4 * 5;  // about, when they are made again, and grow
     if (job_.memory.in_use() + remains.bytes() + progress_.bytes() + of_lists > job_.memory.peak()) return;
     states_->push_back({SolidRemains<m>(remains, job_.memory), SolidProgress(progress_, job_.memory)});
@@ -324,8 +320,7 @@ class SolidDecimator {
 
   const MeshView &original_;
   const FieldsAsLengths<m> &fields_;
-  std::int64_t target_, enough_;
-  double dearest_;
+  const SolidOptions &options_;
   Job &job_;
   SolidMesh<m> mesh_;
   SolidProgress progress_;

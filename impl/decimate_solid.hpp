@@ -1,8 +1,6 @@
 // Past the paper: a coarse mesh by collapsing edges of the original, inner ones and those of the boundary alike, where
 // that loses least of the field [Garland and Zhou 2005]; in rounds, each of many collapses that are apart.
 #pragma once
-#include <limits>
-
 #include "extract_boundary.hpp"
 #include "job.hpp"
 #include "mesh.hpp"
@@ -11,10 +9,9 @@
 namespace tetlod {
 
 struct SolidOptions {
-  std::int64_t tets = 0;  ///< how many there shall be
-  /// Sooner, with fewer tets than `enough`, it ends where collapses cost more than that: the square of a length.
-  double dearest = std::numeric_limits<double>::infinity();
-  std::int64_t enough = 0;
+  std::int64_t tets = 0;              ///< how many there shall be
+  std::int64_t enough = 0;            ///< with fewer than so many it also ends where collapses get dear
+  double dearest = 0;                 ///< what they may cost then, the square of a length
   double max_deviation = 0;           ///< as in DecimateOptions
   Span<const std::uint8_t> kept;      ///< original vertices that keep place and value; empty: none
   Span<const std::uint8_t> touching;  ///< original vertices where the solid touches itself; empty: none

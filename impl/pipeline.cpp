@@ -44,7 +44,7 @@ class Pipeline {
     if (as_published(options_))
       sample();
     else
-      budget_ = budget_of(ratio_of(options_), report_);
+      budget_ = first_budget(options_, original_.box.diagonal(), report_);
   }
 
   /// After begin().
@@ -68,7 +68,7 @@ class Pipeline {
     of.fields = double(original_.view.fields);
     of.tets = std::max(double(budget_.tets), tets_for_bound(original_.view, bound, job_));
     of.points = of.tets / tets_a_point;
-    const double first = is_sized_by_bound(options_) ? std::min(of.tets, most_at_first(budget_)) : double(budget_.tets);
+    const double first = std::max(double(budget_.tets), std::min(of.tets, double(budget_.enough)));
     const ProbeOptions enough = enough_probes(first, rounds_of(options_, report_));
     of.probes = double(expected_probes(original_.view, enough));
     return of;
@@ -94,9 +94,8 @@ class Pipeline {
 
   /// Where the bound does not hold because the boundary is too coarse, one with more triangles follows.
   void run_to_target(Worker &worker) {
-    bool by_cost = is_sized_by_bound(options_);
-    for (double ratio = ratio_of(options_);; ratio *= 2, by_cost = false) {
-      const bool collapsed = collapses_edges(options_, report_) && collapse_edges(by_cost);
+    for (double ratio = ratio_of(options_);; ratio *= 2) {
+      const bool collapsed = collapses_edges(options_, report_) && collapse_edges();
       if (!collapsed) remesh_to_target(worker);
       if (refine(!collapsed || options_.effort == effort_accurate) == 0) return;
       const double sigma = budget_.sigma;
@@ -113,12 +112,14 @@ class Pipeline {
     reconstruct_field();
   }
 
-  /// To the budget, or, by cost, to what suits the bound. False: that way leads to no sound mesh of the size.
-  bool collapse_edges(bool by_cost) {
+  /// To the budget, or to what suits the bound. False: that way leads to no sound mesh of the size.
+  bool collapse_edges() {
     describe_boundary(prepared_.topology(job_), report_);
     const StageTimer timer(Stage::decimate, job_, report_);
-    const double diagonal = original_.box.diagonal();
-    const SolidOptions options = solid_options(options_, budget_, by_cost, diagonal, original_.flags);
+    const double diagonal = original_.box.diagonal(), deviation = options_.max_deviation * diagonal;
+    const bool by_bound = budget_.enough > 0;
+    const std::int64_t tets = by_bound ? budget_.least : before_lowering(budget_.tets, options_.max_error);
+    const SolidOptions options{tets, budget_.enough, budget_.dearest, deviation, original_.flags, {}};
     CoarseSolid coarse(job_.memory);
     const std::string wrong =
         decimate_solid_and_check(original_.view, boundary_, prepared_.surface(job_), prepared_.topology(job_), options,
@@ -129,14 +130,13 @@ class Pipeline {
       return false;
     }
     mesh_ = std::move(coarse.mesh);
-    if (by_cost) budget_.tets = std::int64_t(mesh_.tets.size());
+    if (by_bound) budget_.tets = std::int64_t(mesh_.tets.size());
     origin_ = std::move(coarse.origin);
     topology_ = std::move(coarse.topology);
     report_.max_deviation = coarse.deviation / diagonal;
     describe_simplified_boundary(topology_, report_);
     report_.samples = report_.selected_samples = std::int64_t(mesh_.points.size()) - report_.boundary_points_out;
-    report_.samples_outside = report_.samples_too_near = report_.steiner_points =
-        0;  // a round before may have had some
+    report_.samples_outside = report_.samples_too_near = report_.steiner_points = 0;  // of a round before
     return true;
   }
 

@@ -110,11 +110,10 @@ bool is_flattened(const SolidComplex &mesh, const Tet &t, std::int32_t v, const 
   const auto &face = tet_face[v == t[0] ? 0 : v == t[1] ? 1 : v == t[2] ? 2 : 3];
   const auto corner = [&](int i) { return mesh.point(t[std::size_t(face[i])]); };
   const Vec3 a = corner(0), b = corner(1), c = corner(2);
-  const Vec3 to_a = a - place, to_b = b - place, to_c = c - place;
-  const double volume = glm::dot(to_a, glm::cross(to_b, to_c));
+  const double volume = det(place, a, b, c);
   if (!(volume > 0)) return true;
   // No edge is longer than twice the longest one at a corner: of most tets that says enough.
-  const double most = 4 * std::max({length2(to_a), length2(to_b), length2(to_c)});
+  const double most = 4 * std::max({length2(a - place), length2(b - place), length2(c - place)});
   const double limit2 = mesh.measures.least_shape2;
   if (volume * volume > limit2 * most * most * most) return false;
   const double shape = shape2(place, a, b, c);

@@ -10,8 +10,8 @@ struct Spread {
   double median = 0, least = 0, most = 0;
 };
 
-// Of at least one value.
 inline Spread spread_of(std::vector<double> values) {
+  if (values.empty()) return {};
   std::sort(values.begin(), values.end());
   const std::size_t n = values.size();
   return {0.5 * (values[(n - 1) / 2] + values[n / 2]), values.front(), values.back()};

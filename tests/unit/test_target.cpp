@@ -45,7 +45,7 @@ TEST_F(TargetedRun, MeetsItsSizeAndBeatsTheFasterWay) {
     collapse(effort_fast);
     const double fast = rms_of_run();
     collapse(effort_accurate);
-    EXPECT_LT(rms_of_run(), 0.95 * fast) << ratio;
+    EXPECT_LT(rms_of_run(), (ratio < 0.5 ? 0.9 : 0.95) * fast) << ratio;
     EXPECT_LT(fast, sampled) << ratio;
   }
 }
@@ -100,15 +100,19 @@ TEST_F(TargetedRun, AConstantField) {
   expect_sound(original, 1e-3);
 }
 
-/// Of the least doubles there are, where a quotient of two is more than any.
-TEST_F(TargetedRun, ASubnormalField) {
+/// As good as any other, while squares are doubles, and sound beyond that.
+TEST_F(TargetedRun, FieldsOfSmallAndLargeDoubles) {
   Mesh original = kuhn_cube(8);
   options.target_ratio = 0.2;
-  for (double scale : {1e-300, 1e-309, 1e-317}) {
-    set_scalars(original, [&](const Vec3 &p) { return scale * waves(p); });
+  const auto error_between = [&](double scale) {
+    set_scalars(original, [&](const Vec3 &p) { return scale * std::sin(7 * p.x + 5 * p.y) * std::cos(4 * p.z); });
     simplify(original);
     expect_sound(original, 1e-3);
-  }
+    return measure_error(input_of(original), options, mesh(), 2, host.job).rms_inner;
+  };
+  const double usual = error_between(1);
+  for (double scale : {1e-140, 1e140}) EXPECT_NEAR(error_between(scale), usual, 0.05 * usual) << scale;
+  for (double scale : {1e-300, 1e-309, 1e-315, 1e300}) EXPECT_LT(error_between(scale), 0.2) << scale;
 }
 
 /// Whatever values points have that no tet uses.
