@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "pipeline.hpp"
+#include "refine.hpp"
 
 namespace tetlod {
 
@@ -97,6 +98,20 @@ inline Budget budget_for_bound(double max_error, double diagonal, const Report &
 inline Budget first_budget(const Options &options, double diagonal, const Report &report) {
   const bool sized = options.target_ratio > 0;
   return sized ? budget_of(options.target_ratio, report) : budget_for_bound(options.max_error, diagonal, report);
+}
+
+struct CollapseSizes {
+  std::int64_t tets = 0;     ///< edges collapse until there are no more, or as a bound decides
+  std::int64_t lowered = 0;  ///< when the boundary has gone back where it was farthest off; 0: it does not
+};
+
+/// What a bound asks for, and few tets, serve the field alone.
+inline CollapseSizes collapse_sizes(const Budget &budget, const Options &options) {
+  constexpr std::int64_t part = 400;
+  const std::int64_t most = before_lowering(budget.tets, options.max_error);
+  if (budget.enough > 0) return {budget.least, 0};
+  const bool lowers = options.effort == effort_accurate && most < budget.tets && options.max_deviation <= 0;
+  return lowers ? CollapseSizes{most - most / part, most} : CollapseSizes{most, 0};
 }
 
 }  // namespace tetlod

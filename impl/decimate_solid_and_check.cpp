@@ -2,6 +2,7 @@
 
 #include "deviation.hpp"
 #include "find_crossing.hpp"
+#include "lower_deviation.hpp"
 #include "status.hpp"
 #include "tet_checks.hpp"
 
@@ -52,14 +53,37 @@ std::string check(const SolidOptions &options, const SurfaceTopology &topology, 
   return wrong.empty() ? check_surface_of(topology, fields, job, coarse) : wrong;
 }
 
+/// Of original vertices: those that are kept, and where the solid touches itself.
+Array<std::uint8_t> vertices_that_stay(const SolidOptions &options, Memory &memory) {
+  Array<std::uint8_t> stay(options.kept.begin(), options.kept.end(), &memory);
+  if (stay.empty()) stay.assign(options.touching.begin(), options.touching.end());
+  for (std::size_t v = 0; v < options.touching.size(); v++) stay[v] |= options.touching[v];
+  return stay;
+}
+
+/// Takes the boundary back to where it is farthest off, where the outcome is sound.
+bool lower(const SolidOptions &options, std::int64_t most, const SurfaceTopology &topology, const Surface &surface,
+           Job &job, CoarseSolid &coarse) {
+  CoarseSolid lowered(job.memory);
+  lowered.mesh = coarse.mesh;
+  lowered.origin = coarse.origin;
+  const Array<std::uint8_t> stay = vertices_that_stay(options, job.memory);
+  lowered.deviation = lower_deviation(surface, stay, most, job, lowered.mesh, lowered.origin);
+  if (!check(options, topology, surface.fields, job, lowered).empty()) return false;
+  lowered.reused = coarse.reused;
+  coarse = std::move(lowered);
+  return true;
+}
+
 }  // namespace
 
 std::string decimate_solid_and_check(const MeshView &original, const Boundary &boundary, const Surface &surface,
-                                     const SurfaceTopology &topology, SolidOptions options, SolidHistory &history,
-                                     Job &job, CoarseSolid &coarse) {
+                                     const SurfaceTopology &topology, SolidOptions options, std::int64_t lowered,
+                                     SolidHistory &history, Job &job, CoarseSolid &coarse) {
   const Array<std::uint8_t> touching = touching_vertices(original, surface, topology, job);
   options.touching = touching;
   coarse.reused = decimate_solid(original, boundary, surface, options, history, job, coarse.mesh, coarse.origin);
+  if (lowered > 0 && lower(options, lowered, topology, surface, job, coarse)) return {};
   const std::string wrong = check(options, topology, original.fields, job, coarse);
   if (wrong.empty())
     coarse.deviation = largest_deviation(surface, coarse.surface, samples_for(options.max_deviation), job);

@@ -17,11 +17,12 @@ struct CoarseSolid {
   double deviation = 0;        ///< between the boundaries, at samples_for() the limit
 };
 
-/// decimate_solid. `surface` is the original's boundary, `topology` that of it; options.touching is found from them.
+/// decimate_solid, then, but with lowered = 0, lower_deviation to so many tets at most, where that leaves the mesh
+/// sound. `surface` is the original's boundary, `topology` that of it; options.touching is found from them.
 /// Returns what is wrong with the outcome, or an empty text: the size is missed by more than 1 %, a tet is not
 /// positive, tets overlap, or the boundary crosses itself.
 std::string decimate_solid_and_check(const MeshView &original, const Boundary &boundary, const Surface &surface,
-                                     const SurfaceTopology &topology, SolidOptions options, SolidHistory &history,
-                                     Job &job, CoarseSolid &coarse);
+                                     const SurfaceTopology &topology, SolidOptions options, std::int64_t lowered,
+                                     SolidHistory &history, Job &job, CoarseSolid &coarse);
 
 }  // namespace tetlod

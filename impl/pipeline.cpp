@@ -117,20 +117,19 @@ class Pipeline {
     describe_boundary(prepared_.topology(job_), report_);
     const StageTimer timer(Stage::decimate, job_, report_);
     const double diagonal = original_.box.diagonal(), deviation = options_.max_deviation * diagonal;
-    const bool by_bound = budget_.enough > 0;
-    const std::int64_t tets = by_bound ? budget_.least : before_lowering(budget_.tets, options_.max_error);
-    const SolidOptions options{tets, budget_.enough, budget_.dearest, deviation, original_.flags, {}};
+    const CollapseSizes sizes = collapse_sizes(budget_, options_);
+    const SolidOptions options{sizes.tets, budget_.enough, budget_.dearest, deviation, original_.flags, {}};
     CoarseSolid coarse(job_.memory);
     const std::string wrong =
         decimate_solid_and_check(original_.view, boundary_, prepared_.surface(job_), prepared_.topology(job_), options,
-                                 prepared_.history(job_), job_, coarse);
+                                 sizes.lowered, prepared_.history(job_), job_, coarse);
     report_.reused_collapses = coarse.reused;
     if (!wrong.empty()) {
       if (job_.log) job_.log(1, ("edges collapsed in vain, so that it is remeshed: " + wrong).c_str());
       return false;
     }
     mesh_ = std::move(coarse.mesh);
-    if (by_bound) budget_.tets = std::int64_t(mesh_.tets.size());
+    if (budget_.enough > 0) budget_.tets = std::int64_t(mesh_.tets.size());
     origin_ = std::move(coarse.origin);
     topology_ = std::move(coarse.topology);
     report_.max_deviation = coarse.deviation / diagonal;

@@ -5,75 +5,14 @@
 #include <random>
 #include <set>
 
-#include "brute_force.hpp"
-#include "decimate_solid_and_check.hpp"
+#include "decimate_solid_fixture.hpp"
 #include "deviation.hpp"
-#include "geometry.hpp"
-#include "meshes.hpp"
 #include "solid_rules.hpp"
 
 namespace tetlod {
 namespace {
 
 using namespace test;
-
-double waves(const Vec3 &p) { return std::sin(6 * p.x) * std::cos(5 * p.y) + p.z * p.z; }
-
-class DecimateSolid : public testing::Test {
- protected:
-  Host host;
-  Mesh original;
-  Boundary boundary{host.memory};
-  Surface surface{host.memory};
-  SurfaceTopology topology{host.memory};
-  SolidOptions options;
-  std::string failure;  ///< of the last decimation
-
-  void start_with(const Mesh &mesh) {
-    original = mesh;
-    boundary = Boundary(host.memory);
-    surface = Surface(host.memory);
-    topology = SurfaceTopology(host.memory);
-    extract_boundary(original.view(), host.job, boundary);
-    make_surface(original.view(), boundary.triangles, host.job, surface);
-    find_topology(surface.points, surface.triangles, host.job, topology);
-  }
-
-  bool decimate(double ratio, Host &on, CoarseSolid &coarse) {
-    SolidHistory history(on.memory);
-    return decimate(ratio, on, history, coarse);
-  }
-
-  bool decimate(double ratio, Host &on, SolidHistory &history, CoarseSolid &coarse) {
-    options.tets = std::int64_t(ratio * double(original.tets.size()));
-    failure = decimate_solid_and_check(original.view(), boundary, surface, topology, options, history, on.job, coarse);
-    return failure.empty();
-  }
-
-  static void expect_same(const TetMesh &a, const TetMesh &b) {
-    EXPECT_EQ(a.points, b.points);
-    EXPECT_EQ(a.scalars, b.scalars);
-    EXPECT_EQ(a.tets, b.tets);
-  }
-
-  void expect_sound(const CoarseSolid &coarse) const {
-    Mesh mesh;
-    mesh.points.assign(coarse.mesh.points.begin(), coarse.mesh.points.end());
-    mesh.tets.assign(coarse.mesh.tets.begin(), coarse.mesh.tets.end());
-    for (const Tet &t : mesh.tets) {
-      const auto p = [&](int k) { return mesh.points[std::size_t(t[std::size_t(k)])]; };
-      EXPECT_GT(det(p(0), p(1), p(2), p(3)), 0);
-    }
-    EXPECT_EQ(oriented_triangles(coarse.mesh.boundary), brute_boundary(mesh));
-    const SurfaceFacts was = facts_of(boundary.triangles), is = facts_of(coarse.mesh.boundary);
-    EXPECT_TRUE(is.closed);
-    EXPECT_EQ(is.components, was.components);
-    EXPECT_EQ(is.euler, was.euler);
-    EXPECT_EQ(is.nonmanifold_edges, was.nonmanifold_edges);
-    EXPECT_TRUE(crossings(coarse.surface, const_cast<Host &>(host).memory).empty());
-    EXPECT_NEAR(volume_of(mesh) / volume_of(original), 1, 0.01);
-  }
-};
 
 TEST_F(DecimateSolid, IsSoundAndMeetsItsSize) {
   const auto tunnel = [](const Cell &c) { return !(c[0] > 1 && c[0] < 6 && c[1] > 1 && c[1] < 6); };

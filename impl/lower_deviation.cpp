@@ -1,0 +1,377 @@
+#include "lower_deviation.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "few.hpp"
+#include "star_lists.hpp"
+#include "surface_distance.hpp"
+#include "tet_frame.hpp"
+
+namespace tetlod {
+
+namespace {
+
+constexpr std::int64_t leaf = 4;
+constexpr std::size_t block = 256;
+constexpr int sweeps = 6;
+/// What a change leaves of a distance, at most; to gain less is not worth it.
+constexpr double most_left = 0.8;
+/// Of the way to where it would be none, what is tried.
+constexpr double parts_of_way[] = {1, 0.6, 0.3};
+/// A corner of more weight than that moves; one of less is no end of what is divided.
+constexpr double near_corner = 0.6, far_corner = 0.15;
+
+/// Where the boundaries are apart: at an original vertex, or, from `vertices` on, at one of the mesh.
+struct Apart {
+  double distance;
+  std::size_t at;
+  bool operator<(const Apart &o) const { return distance != o.distance ? distance > o.distance : at < o.at; }
+};
+
+/// A point of the original's boundary.
+struct Aim {
+  Vec3 point;
+  Few<double, most_fields> values;
+  std::int32_t origin;  ///< the original vertex that it is, or -1
+};
+
+/// What becomes of the tets and triangles that have some vertices in common.
+struct Change {
+  using Simplex = Few<std::int32_t, 3>;
+  struct Home {
+    std::int32_t sample;
+    std::size_t triangle;  ///< of the fresh ones
+    double distance;
+  };
+  explicit Change(Memory &memory)
+      : tets(&memory), triangles(&memory), fresh_tets(&memory), fresh_triangles(&memory), homes(&memory) {}
+  Array<std::int32_t> tets, triangles;
+  Array<Tet> fresh_tets;
+  Array<Triangle> fresh_triangles;
+  Array<Home> homes;  ///< of the samples that the triangles stood for
+};
+
+template <std::size_t corners>
+bool has_all(const std::array<std::int32_t, corners> &simplex, const Change::Simplex &vertices) {
+  return std::all_of(vertices.begin(), vertices.end(),
+                     [&](std::int32_t v) { return std::find(simplex.begin(), simplex.end(), v) != simplex.end(); });
+}
+
+/// Those in the list of the first vertex that have all.
+template <std::size_t corners>
+void find_with(const Change::Simplex &vertices, const StarLists &lists,
+               const Array<std::array<std::int32_t, corners>> &simplices, Array<std::int32_t> &found) {
+  found.clear();
+  for (std::int32_t s : lists.of(vertices[0]))
+    if (has_all(simplices[std::size_t(s)], vertices)) found.push_back(s);
+}
+
+/// Each of `old` with `by` in the place of one of the vertices, for each of them.
+template <std::size_t corners>
+void replace_each(Span<const std::int32_t> old, const Change::Simplex &vertices, std::int32_t by,
+                  const Array<std::array<std::int32_t, corners>> &simplices,
+                  Array<std::array<std::int32_t, corners>> &fresh) {
+  fresh.clear();
+  for (std::int32_t s : old)
+    for (std::int32_t v : vertices) {
+      fresh.push_back(simplices[std::size_t(s)]);
+      std::replace(fresh.back().begin(), fresh.back().end(), v, by);
+    }
+}
+
+/// `fresh` take the places of `old`, and further ones.
+template <std::size_t corners>
+void put(Span<const std::int32_t> old, const Array<std::array<std::int32_t, corners>> &fresh,
+         Array<std::array<std::int32_t, corners>> &simplices) {
+  for (std::size_t i = 0; i < fresh.size(); i++) {
+    if (i < old.size())
+      simplices[std::size_t(old[i])] = fresh[i];
+    else
+      simplices.push_back(fresh[i]);
+  }
+}
+
+class DeviationLowering {
+ public:
+  DeviationLowering(const Surface &original, Span<const std::uint8_t> stays, Job &job, TetMesh &mesh,
+                    Array<std::int32_t> &origin)
+      : original_(original),
+        stays_(stays),
+        job_(job),
+        mesh_(mesh),
+        origin_(origin),
+        to_original_(original.points, original.triangles, leaf, job),
+        of_sample_(original.points.size(), 0.0, &job.memory),
+        of_vertex_(mesh.points.size(), 0.0, &job.memory),
+        first_(mesh.boundary.size(), -1, &job.memory),
+        next_(original.points.size(), -1, &job.memory),
+        home_(original.points.size(), -1, &job.memory),
+        touched_(&job.memory),
+        change_(job.memory) {
+    measure_samples();
+    measure_vertices();
+  }
+
+  double run(std::int64_t most) {
+    most_ = std::size_t(most);
+    for (int sweep = 0; sweep < sweeps && serve_worst() > 0; sweep++) {
+    }
+    const auto largest = [](const Array<double> &distances) {
+      return *std::max_element(distances.begin(), distances.end());
+    };
+    return std::max(largest(of_sample_), largest(of_vertex_));
+  }
+
+ private:
+  std::size_t vertices() const { return original_.points.size(); }
+
+  void measure_samples() {
+    const NearestTriangle to_mesh(mesh_.points, mesh_.boundary, leaf, job_);
+    job_.parallel.for_blocks(vertices(), block, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; i++) {
+        const NearestPoint nearest = to_mesh.nearest(original_.points[i]);
+        of_sample_[i] = nearest.distance;
+        home_[i] = nearest.triangle;
+      }
+      job_.poll(1);
+    });
+    for (std::size_t i = 0; i < vertices(); i++)
+      if (home_[i] >= 0) next_[i] = std::exchange(first_[std::size_t(home_[i])], std::int32_t(i));
+  }
+
+  /// Those that are original vertices are not off.
+  void measure_vertices() {
+    Array<std::uint8_t> moved(mesh_.points.size(), 0, &job_.memory);
+    for (const Triangle &t : mesh_.boundary)
+      for (std::int32_t v : t) moved[std::size_t(v)] = origin_[std::size_t(v)] < 0;
+    job_.parallel.for_blocks(moved.size(), block, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; v++)
+        if (moved[v]) of_vertex_[v] = to_original_.nearest(mesh_.points[v]).distance;
+      job_.poll(1);
+    });
+  }
+
+  /// The largest distances, as many as may be served in a sweep.
+  Array<Apart> find_worst() const {
+    constexpr std::size_t moves = 16;
+    Array<Apart> worst(&job_.memory);
+    for (std::size_t i = 0; i < of_sample_.size(); i++)
+      if (of_sample_[i] > 0) worst.push_back({of_sample_[i], i});
+    for (std::size_t v = 0; v < of_vertex_.size(); v++)
+      if (of_vertex_[v] > 0) worst.push_back({of_vertex_[v], vertices() + v});
+    const std::size_t room = most_ - std::min(most_, mesh_.tets.size()),
+                      count = std::min(worst.size(), moves + room / 2);
+    std::partial_sort(worst.begin(), worst.begin() + std::ptrdiff_t(count), worst.end());
+    worst.resize(count);
+    return worst;
+  }
+
+  /// How many could be.
+  std::int64_t serve_worst() {
+    const StarLists tets(Span<const Tet>(mesh_.tets), mesh_.points.size(), job_),
+        triangles(Span<const Triangle>(mesh_.boundary), mesh_.points.size(), job_);
+    tets_ = &tets;
+    triangles_ = &triangles;
+    touched_.assign(mesh_.points.size(), 0);
+    std::int64_t served = 0;
+    for (const Apart &apart : find_worst()) served += serve(apart);
+    job_.poll(1);
+    return served;
+  }
+
+  bool serve(const Apart &apart) {
+    const double limit = most_left * apart.distance;
+    if (apart.at < vertices()) return of_sample_[apart.at] == apart.distance && serve_sample(apart.at, limit);
+    const std::size_t v = apart.at - vertices();
+    return of_vertex_[v] == apart.distance && serve_vertex(std::int32_t(v), limit);
+  }
+
+  /// Takes the nearest of the mesh's boundary to an original vertex.
+  bool serve_sample(std::size_t sample, double limit) {
+    if (home_[sample] < 0) return false;
+    const Triangle home = mesh_.boundary[std::size_t(home_[sample])];
+    const Vec3 w = weights_in(home, original_.points[sample]), from = at_weights(home, w);
+    Aim aim{original_.points[sample], {}, original_.origin[sample]};
+    for (std::size_t k = 0; k < original_.fields; k++)
+      aim.values.push(original_.scalars[sample * original_.fields + k]);
+    const auto nearest = std::size_t(w.x >= w.y && w.x >= w.z ? 0 : w.y >= w.z ? 1 : 2);
+    Change::Simplex ends;
+    for (std::size_t k = 0; k < 3; k++)
+      if (w[int(k)] >= far_corner) ends.push(home[k]);
+    for (double part : parts_of_way) {
+      if (part < 1) aim.origin = -1;
+      aim.point = from + part * (original_.points[sample] - from);
+      if (w[int(nearest)] > near_corner && move(home[nearest], aim, limit)) return true;
+      if (ends.size() > 1 && divide(ends, aim, limit)) return true;
+    }
+    return false;
+  }
+
+  /// Takes a vertex of the mesh's boundary to the original's.
+  bool serve_vertex(std::int32_t v, double limit) {
+    const Vec3 from = mesh_.points[std::size_t(v)];
+    const NearestPoint nearest = to_original_.nearest(from);
+    if (nearest.triangle < 0) return false;
+    const Triangle &t = original_.triangles[std::size_t(nearest.triangle)];
+    Vec3 to(0);
+    for (int k = 0; k < 3; k++) to += nearest.weights[k] * original_.points[std::size_t(t[std::size_t(k)])];
+    Aim aim{to, {}, -1};
+    for (std::size_t field = 0; field < original_.fields; field++) aim.values.push(value_at(t, nearest.weights, field));
+    for (double part : parts_of_way) {
+      aim.point = from + part * (to - from);
+      if (move(v, aim, limit)) return true;
+    }
+    return false;
+  }
+
+  /// Not beyond those at the corners by rounding.
+  double value_at(const Triangle &t, const Vec3 &weights, std::size_t field) const {
+    const auto of = [&](std::size_t k) { return original_.scalars[std::size_t(t[k]) * original_.fields + field]; };
+    const auto [low, high] = std::minmax({of(0), of(1), of(2)});
+    return std::min(high, std::max(low, weights[0] * of(0) + weights[1] * of(1) + weights[2] * of(2)));
+  }
+
+  // ---- Triangles of the mesh
+
+  const Vec3 &corner(const Triangle &t, int k) const { return mesh_.points[std::size_t(t[std::size_t(k)])]; }
+  Vec3 weights_in(const Triangle &t, const Vec3 &p) const {
+    return nearest_in_triangle(p, corner(t, 0), corner(t, 1), corner(t, 2));
+  }
+  Vec3 at_weights(const Triangle &t, const Vec3 &w) const {
+    return w.x * corner(t, 0) + w.y * corner(t, 1) + w.z * corner(t, 2);
+  }
+
+  // ---- A change
+
+  bool is_kept(std::int32_t v) const {
+    const std::int32_t at = origin_[std::size_t(v)];
+    return at >= 0 && !stays_.empty() && stays_[std::size_t(at)];
+  }
+
+  bool move(std::int32_t v, const Aim &aim, double limit) {
+    Change::Simplex alone;
+    alone.push(v);
+    if (!may_change(alone)) return false;
+    look_around(alone, v);
+    const Vec3 before = std::exchange(mesh_.points[std::size_t(v)], aim.point);
+    if (!suits(limit)) {
+      mesh_.points[std::size_t(v)] = before;
+      return false;
+    }
+    std::copy(aim.values.begin(), aim.values.end(),
+              mesh_.scalars.begin() + std::ptrdiff_t(std::size_t(v) * original_.fields));
+    origin_[std::size_t(v)] = aim.origin;
+    of_vertex_[std::size_t(v)] = to_original_.nearest(aim.point).distance;
+    make();
+    return true;
+  }
+
+  /// An edge or a triangle gets a vertex.
+  bool divide(const Change::Simplex &ends, const Aim &aim, double limit) {
+    if (!may_change(ends)) return false;
+    look_around(ends, std::int32_t(mesh_.points.size()));
+    if (mesh_.tets.size() + change_.fresh_tets.size() - change_.tets.size() > most_) return false;
+    mesh_.points.push_back(aim.point);
+    if (!suits(limit)) {
+      mesh_.points.pop_back();
+      return false;
+    }
+    mesh_.scalars.insert(mesh_.scalars.end(), aim.values.begin(), aim.values.end());
+    origin_.push_back(aim.origin);
+    of_vertex_.push_back(to_original_.nearest(aim.point).distance);
+    touched_.push_back(1);
+    make();
+    return true;
+  }
+
+  bool may_change(const Change::Simplex &vertices) const {
+    return std::none_of(vertices.begin(), vertices.end(),
+                        [&](std::int32_t v) { return touched_[std::size_t(v)] || is_kept(v); });
+  }
+
+  /// What becomes of all that has the vertices when `by` comes in the place of each.
+  void look_around(const Change::Simplex &vertices, std::int32_t by) {
+    find_with(vertices, *tets_, mesh_.tets, change_.tets);
+    find_with(vertices, *triangles_, mesh_.boundary, change_.triangles);
+    replace_each(change_.tets, vertices, by, mesh_.tets, change_.fresh_tets);
+    replace_each(change_.triangles, vertices, by, mesh_.boundary, change_.fresh_triangles);
+  }
+
+  /// Whether the tets are sound, and nothing that is concerned is farther off than the limit.
+  bool suits(double limit) {
+    const auto sound = [&](const Tet &t) {
+      const auto p = [&](std::size_t k) { return mesh_.points[std::size_t(t[k])]; };
+      return is_sound(p(0), p(1), p(2), p(3), least_shape);
+    };
+    const auto near = [&](const Triangle &t) {
+      const Vec3 middle = (corner(t, 0) + corner(t, 1) + corner(t, 2)) / 3.0;
+      return to_original_.nearest(middle).distance <= limit;
+    };
+    return std::all_of(change_.fresh_tets.begin(), change_.fresh_tets.end(), sound) && finds_homes(limit) &&
+           std::all_of(change_.fresh_triangles.begin(), change_.fresh_triangles.end(), near);
+  }
+
+  /// For the samples that the old triangles stood for.
+  bool finds_homes(double limit) {
+    change_.homes.clear();
+    for (std::int32_t old : change_.triangles)
+      for (std::int32_t s = first_[std::size_t(old)]; s >= 0; s = next_[std::size_t(s)]) {
+        const Change::Home home = home_of(s);
+        if (!(home.distance <= limit)) return false;
+        change_.homes.push_back(home);
+      }
+    return true;
+  }
+
+  Change::Home home_of(std::int32_t sample) const {
+    const Vec3 &p = original_.points[std::size_t(sample)];
+    Change::Home home{sample, 0, std::numeric_limits<double>::infinity()};
+    for (std::size_t i = 0; i < change_.fresh_triangles.size(); i++) {
+      const Triangle &t = change_.fresh_triangles[i];
+      const double distance = glm::length(at_weights(t, weights_in(t, p)) - p);
+      if (distance < home.distance) home = {sample, i, distance};
+    }
+    return home;
+  }
+
+  void make() {
+    for (const Tet &t : change_.fresh_tets)
+      for (std::int32_t v : t) touched_[std::size_t(v)] = 1;
+    const std::size_t olds = change_.triangles.size(), end = mesh_.boundary.size();
+    put(change_.tets, change_.fresh_tets, mesh_.tets);
+    put(change_.triangles, change_.fresh_triangles, mesh_.boundary);
+    first_.resize(mesh_.boundary.size(), -1);
+    for (std::int32_t old : change_.triangles) first_[std::size_t(old)] = -1;
+    for (const Change::Home &home : change_.homes) {
+      const std::size_t i = home.triangle, at = i < olds ? std::size_t(change_.triangles[i]) : end + i - olds;
+      const auto s = std::size_t(home.sample);
+      of_sample_[s] = home.distance;
+      home_[s] = std::int32_t(at);
+      next_[s] = std::exchange(first_[at], home.sample);
+    }
+  }
+
+  const Surface &original_;
+  Span<const std::uint8_t> stays_;
+  Job &job_;
+  TetMesh &mesh_;
+  Array<std::int32_t> &origin_;
+  NearestTriangle to_original_;
+  Array<double> of_sample_, of_vertex_;      // distances, of the original's vertices and the mesh's
+  Array<std::int32_t> first_, next_, home_;  // lists of the original's vertices, by nearest triangle
+  std::size_t most_ = 0;
+  const StarLists *tets_ = nullptr, *triangles_ = nullptr;  // as the sweep began
+  Array<std::uint8_t> touched_;                             // vertices whose tets changed since
+  Change change_;
+};
+
+}  // namespace
+
+double lower_deviation(const Surface &original, Span<const std::uint8_t> stays, std::int64_t most, Job &job,
+                       TetMesh &mesh, Array<std::int32_t> &origin) {
+  return DeviationLowering(original, stays, job, mesh, origin).run(most);
+}
+
+}  // namespace tetlod

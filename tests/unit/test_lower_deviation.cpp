@@ -1,0 +1,112 @@
+// The boundary goes back to where collapses left it farthest off.
+#include "decimate_solid_fixture.hpp"
+#include "deviation.hpp"
+#include "lower_deviation.hpp"
+
+namespace tetlod {
+namespace {
+
+using namespace test;
+
+class LowerDeviation : public DecimateSolid {
+ protected:
+  /// Of the original as it is, but for what `change` does to it.
+  template <class Change>
+  double lower(std::int64_t most, const Change &change) {
+    Mesh changed = original;
+    change(changed);
+    mesh = as_result(changed, host.memory);
+    boundary_of(mesh);
+    origin.assign(mesh.points.size(), 0);
+    for (std::size_t v = 0; v < origin.size(); v++)
+      origin[v] = v < original.points.size() && mesh.points[v] == original.points[v] ? std::int32_t(v) : -1;
+    return lower_deviation(surface, {stays.data(), stays.size()}, most, host.job, mesh, origin);
+  }
+
+  void boundary_of(TetMesh &of) {
+    Boundary found(host.memory);
+    extract_boundary({of.points, of.scalars, of.tets}, host.job, found);
+    of.boundary = found.triangles;
+  }
+
+  static Mesh wavy_cube(int n) {
+    Mesh wavy = kuhn_cube(n);
+    transform(wavy,
+              [](const Vec3 &p) { return p + 0.1 * Vec3(std::sin(7 * p.y), std::sin(5 * p.z), std::sin(6 * p.x)); });
+    set_scalars(wavy, waves);
+    return wavy;
+  }
+
+  static std::size_t vertex_at(const Mesh &of, const Vec3 &p) {
+    return std::size_t(std::find(of.points.begin(), of.points.end(), p) - of.points.begin());
+  }
+
+  std::vector<std::uint8_t> stays;
+  TetMesh mesh{host.memory};
+  Array<std::int32_t> origin{&host.memory};
+};
+
+TEST_F(LowerDeviation, AVertexThatIsOffGoesBack) {
+  Mesh cube = kuhn_cube(2);
+  set_scalars(cube, waves);
+  start_with(cube);
+  for (double off : {0.2, -0.2}) {
+    const std::size_t v = vertex_at(cube, {0.5, 0.5, 1});
+    const double left = lower(std::int64_t(cube.tets.size()), [&](Mesh &changed) { changed.points[v].z += off; });
+    EXPECT_NEAR(left, 0, 1e-15);
+    EXPECT_EQ(mesh.points[v], cube.points[v]);
+    EXPECT_NEAR(mesh.scalars[v], cube.scalars[v], 1e-15);
+    EXPECT_EQ(mesh.tets.size(), cube.tets.size());
+  }
+}
+
+/// A pyramid on a wall of the cube, which the coarse mesh lacks.
+TEST_F(LowerDeviation, AVertexThatIsLackingComesWhereThereIsRoomForIt) {
+  Mesh cube = kuhn_cube(1);
+  Mesh with_peak = cube;
+  const Vec3 peak(1.1, 0.6, 0.3);
+  const auto at = [&](double y, double z) { return std::int32_t(vertex_at(cube, {1, y, z})); };
+  with_peak.points.push_back(peak);
+  // The wall's diagonal runs from (0, 0) to (1, 1), and the peak is over the triangle of (1, 0).
+  with_peak.tets.push_back({at(0, 0), at(1, 0), at(1, 1), std::int32_t(cube.points.size())});
+  set_scalars(with_peak, [](const Vec3 &p) { return 2 * p.x + p.y; });
+  start_with(with_peak);
+  const auto lacking = [](Mesh &changed) {
+    changed.points.pop_back();
+    changed.scalars.pop_back();
+    changed.tets.pop_back();
+  };
+  const auto tets = std::int64_t(cube.tets.size());
+  EXPECT_NEAR(lower(tets, lacking), 0.1, 1e-15);
+  EXPECT_EQ(mesh.points.size(), cube.points.size());
+  EXPECT_LT(lower(tets + 2, lacking), 1e-15);
+  EXPECT_EQ(mesh.points.back(), peak);
+  EXPECT_EQ(mesh.scalars.back(), with_peak.scalars.back());
+  EXPECT_EQ(origin.back(), std::int32_t(cube.points.size()));
+  stays.assign(with_peak.points.size(), 1);  // and so the triangle
+  EXPECT_NEAR(lower(tets + 2, lacking), 0.1, 1e-15);
+  EXPECT_EQ(mesh.points.size(), cube.points.size());
+}
+
+TEST_F(LowerDeviation, LowersWhatCollapsesLeft) {
+  start_with(wavy_cube(12));
+  for (double ratio : {0.5, 0.2, 0.1}) {
+    lowered = 0;
+    CoarseSolid without(host.memory), with(host.memory);
+    ASSERT_TRUE(decimate(ratio, host, without));
+    lowered = options.tets + options.tets / 100;
+    ASSERT_TRUE(decimate(ratio, host, with));
+    expect_sound(with);
+    EXPECT_LT(with.deviation, 0.95 * without.deviation) << ratio;
+    EXPECT_LE(with.mesh.tets.size(), std::size_t(lowered));
+    EXPECT_GE(with.deviation * (1 + 1e-12), largest_deviation(surface, with.surface, Samples::vertices, host.job));
+    EXPECT_EQ(with.origin.size(), with.mesh.points.size());
+    for (std::size_t v = 0; v < with.origin.size(); v++) {
+      const std::int32_t at = with.origin[v];
+      EXPECT_TRUE(at < 0 || with.mesh.points[v] == original.points[std::size_t(at)]);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tetlod
