@@ -312,9 +312,8 @@ enum {
                                    TETLOD_ERR_MESH_NONFINITE, the default */
   TETLOD_OPT_TARGET_RATIO = 20, /* real, "target-ratio": tets kept, as a fraction of the original's sound ones. Then
                                    every step sees the field, as effort says, values are fitted to all original values,
-                                   in the passes vertices inside move and faces and edges flip where the field gains by
-                                   it, and rho, sigma, lambda and min-distance have no meaning; 0, the default: as
-                                   published */
+                                   in the passes vertices inside move and faces and edges flip for the field's sake,
+                                   and rho, sigma, lambda and min-distance have no meaning; 0, the default: published */
   TETLOD_OPT_EFFORT = 21,       /* int, "effort": with a target ratio or a bound. TETLOD_EFFORT_ACCURATE, the default:
                                    edges of the original collapse, inside and on the boundary, by quadrics of the
                                    values' errors, and the smaller the mesh, the more passes follow, up to 12, that also
@@ -328,10 +327,13 @@ enum {
                                    compared at the nearest point of its boundary. Begins with target-ratio (0: where the
                                    error is about twice the bound, 0.01 at least; of samples 0.05), and takes what it
                                    needs; 0, the default: none. Where it cannot be held: TETLOD_ERR_MAX_ERROR */
-  TETLOD_OPT_MAX_DEVIATION = 23 /* real, "max-deviation": bound of the distance between the boundaries of original and
+  TETLOD_OPT_MAX_DEVIATION = 23, /* real, "max-deviation": bound of the distance between the boundaries of original and
                                    result, at vertices and middles of edges and triangles of both, as a fraction of the
                                    diagonal; more of the boundary is kept than asked for. Of triangles that are divided
                                    for the field's sake, at the new vertices alone. 0, the default: none */
+  TETLOD_OPT_WARM_START = 24 /* real, "warm-start": collapses of edges may begin at what those of an earlier run with
+                                other values left, if, by estimate, the RMS error grows by no more than this part.
+                                The bytes then depend on that run, too. 0, the default: they do not */
 };
 enum { TETLOD_EFFORT_FAST = 1, TETLOD_EFFORT_ACCURATE = 2 };
 enum { TETLOD_POLICY_ERROR = 0, TETLOD_POLICY_REPAIR = 1 };
@@ -412,16 +414,14 @@ TETLOD_API tetlod_status tetlod_estimate_memory(tetlod_context *context, uint64_
  * TETLOD_ERR_ARGUMENT       as many scalars as points are needed, and values of what steers beside them; of other
  *                           fields as many tuples as points or tets
  * TETLOD_ERR_MESH_*         see the enumeration
- * TETLOD_ERR_MEMORY_LIMIT, TETLOD_ERR_CANCELLED, TETLOD_ERR_TIME_LIMIT
- * TETLOD_ERR_REMESH, TETLOD_ERR_BACKEND_MISSING
- * TETLOD_ERR_MAX_ERROR
+ * TETLOD_ERR_MEMORY_LIMIT, TETLOD_ERR_CANCELLED, TETLOD_ERR_TIME_LIMIT, TETLOD_ERR_REMESH,
+ * TETLOD_ERR_BACKEND_MISSING, TETLOD_ERR_MAX_ERROR
  *
- * A run takes over from earlier runs of its context, with the bytes that it would have made itself,
+ * A run takes over from earlier ones of its context, with its own bytes but where TETLOD_OPT_WARM_START allows others,
  *   the checks of the mesh, its boundary and how that hangs together, while points, tets, point flags, merge tolerance
  *   and policies are the same and all values are finite;
- *   the boundary's decimation, if lambda, clean-edges and max-deviation are the same as well, as far as it went: a
- *   sigma that is not smaller. With a target ratio or a bound its cost sees the field: then only for the same
- *   values;
+ *   the boundary's decimation, if lambda, clean-edges and max-deviation are the same as well, to a sigma that is not
+ *   smaller; with a target ratio or a bound its cost sees the field: then only for the same values;
  *   where edges of the solid collapse (TETLOD_OPT_EFFORT) and the values, their weights and the flags are the
  *   same, without max-deviation: what other sizes have in common with this one, whichever came first;
  *   what culling found of each sample, if sigma, min-distance and boundary-leaf are also those of the last run.

@@ -273,7 +273,7 @@ tetlod_status Session::run(const Disturbance &disturbance) {
 
 void Session::run_another_size_between(double ratio) {
   const double asked = option(TETLOD_OPT_TARGET_RATIO);
-  if (asked <= 0) return;
+  if (asked <= 0 || option(TETLOD_OPT_WARM_START) > 0) return;  // bytes then depend on the runs before
   const std::uint64_t wanted = hash_;
   set({TETLOD_OPT_TARGET_RATIO, ratio, 0});
   run({});

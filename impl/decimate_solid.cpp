@@ -4,7 +4,9 @@
 #include <numeric>
 #include <optional>
 
+#include "begin_collapses.hpp"
 #include "deviation.hpp"
+#include "renew_quadrics.hpp"
 #include "solid_blocks.hpp"
 #include "solid_costs.hpp"
 #include "solid_rules.hpp"
@@ -40,14 +42,13 @@ class SolidDecimator {
  public:
   /// states: those that are kept; null: none are.
   SolidDecimator(const MeshView &original, const Surface &surface, const SolidOptions &options,
-                 const FieldsAsLengths<m> &fields, SolidMesh<m> &&mesh, SolidProgress &&progress,
-                 Array<SolidState<m>> *states, Job &job)
+                 const FieldsAsLengths<m> &fields, CollapseStart<m> &&start, Array<SolidState<m>> *states, Job &job)
       : original_(original),
         fields_(fields),
         options_(options),
         job_(job),
-        mesh_(std::move(mesh)),
-        progress_(std::move(progress)),
+        mesh_(std::move(start.solid)),
+        progress_(std::move(start.progress)),
         costs_(mesh_, progress_),
         states_(states),
         count_(std::int64_t(mesh_.tets.size())),
@@ -98,6 +99,14 @@ class SolidDecimator {
     job_.poll(1);
     append_left(mesh_.tets, number, out.tets);
     append_left(mesh_.triangles, number, out.boundary);
+  }
+
+  /// The squared error of what is left; the mesh is of no use after that.
+  double take_error(const Boundary &boundary) {
+    const Array<std::int32_t> number = numbers_of(left_, mesh_.points.size(), job_.memory);
+    SolidRemains<m> remains = mesh_.take_remains(left_, number, job_);
+    progress_.close_gaps(left_, number);
+    return renew_quadrics(original_, boundary, fields_, progress_.home, job_, remains);
   }
 
  private:
@@ -307,6 +316,7 @@ class SolidDecimator {
       deviation_->move_on(collapse.star);
     }
     mesh_.collapse(collapse.edge, collapse.place, room);
+    if (progress_.follows()) progress_.into[std::size_t(collapse.edge.gone)] = v;
     work.gone += std::int64_t(collapse.edge.edge_tets.size());
     progress_.moved[std::size_t(v)] = progress_.round;
     work.changed.push_back(v);
@@ -335,21 +345,6 @@ class SolidDecimator {
   Array<std::int32_t> left_;
 };
 
-template <std::size_t m>
-SolidMesh<m> begin_with(const MeshView &original, const Boundary &boundary, const SolidOptions &options,
-                        const Values<m> &scales, Job &job) {
-  SolidMesh<m> mesh(put_in_order(original, boundary, job), original.values<m>(), scales, job);
-  for (std::size_t i = 0; i < mesh.points.size(); i++) {
-    const auto flagged = [&](Span<const std::uint8_t> flags) {
-      return !flags.empty() && flags[std::size_t(mesh.origin[i])];
-    };
-    if (flagged(options.kept))
-      mesh.ranks[i] = mesh.on_boundary(std::int32_t(i)) ? Rank::kept_boundary : Rank::kept_inner;
-    if (flagged(options.touching)) mesh.ranks[i] = Rank::touching;
-  }
-  return mesh;
-}
-
 }  // namespace
 
 std::int64_t decimate_solid(const MeshView &original, const Boundary &boundary, const Surface &surface,
@@ -357,18 +352,14 @@ std::int64_t decimate_solid(const MeshView &original, const Boundary &boundary, 
                             Array<std::int32_t> &origin) {
   return with_fields(original.fields, [&](auto m) {
     const FieldsAsLengths<m> fields(original, box_of(surface.points).diagonal());
-    const bool keeps_states = options.max_deviation <= 0;
-    const SolidState<m> *const state =
-        keeps_states ? history.before<m>(options.tets, options.enough, job.memory) : nullptr;
-    SolidMesh<m> solid = state ? SolidMesh<m>(SolidRemains<m>(state->remains, job.memory), job)
-                               : begin_with<m>(original, boundary, options, fields.scales, job);
-    SolidProgress progress = state ? SolidProgress(state->progress, job.memory)
-                                   : SolidProgress(solid.points.size(), solid.tets.size(), job.memory);
-    const std::size_t saved = solid.measures.vertices - solid.points.size();
-    SolidDecimator<m> decimator(original, surface, options, fields, std::move(solid), std::move(progress),
-                                keeps_states ? &history.states<m>(job.memory) : nullptr, job);
+    CollapseStart<m> start = begin_collapses<m>(original, boundary, fields, options, history, job);
+    const std::size_t saved = start.solid.measures.vertices - start.solid.points.size();
+    const bool warms = start.progress.follows() && !history.knows_usual_error();
+    SolidDecimator<m> decimator(original, surface, options, fields, std::move(start),
+                                start.keeps_states ? &history.states<m>(job.memory) : nullptr, job);
     decimator.run();
     decimator.write(mesh, origin);
+    if (warms) history.set_usual_error(decimator.take_error(boundary), std::int64_t(mesh.tets.size()));
     return std::int64_t(saved);
   });
 }

@@ -9,10 +9,11 @@
 namespace tetlod {
 
 struct SolidOptions {
-  std::int64_t tets = 0;              ///< how many there shall be
-  std::int64_t enough = 0;            ///< with fewer than so many it also ends where collapses get dear
-  double dearest = 0;                 ///< what they may cost then, the square of a length
-  double max_deviation = 0;           ///< as in DecimateOptions
+  std::int64_t tets = 0;     ///< how many there shall be
+  std::int64_t enough = 0;   ///< with fewer than so many it also ends where collapses get dear
+  double dearest = 0;        ///< what they may cost then, the square of a length
+  double max_deviation = 0;  ///< as in DecimateOptions
+  double warm_start = 0;  ///< begins where earlier values left the solid, if the error gets larger by this part at most
   Span<const std::uint8_t> kept;      ///< original vertices that keep place and value; empty: none
   Span<const std::uint8_t> touching;  ///< original vertices where the solid touches itself; empty: none
 };
@@ -21,8 +22,8 @@ struct SolidOptions {
 /// no further collapse is admissible, or cheap enough; points, values, tets and boundary, of the original's topology
 /// and, to 1 %, its volume. origin: the original vertex that each point still is, or -1. Tets that were flat may be
 /// left, and the boundary may cross itself: to be looked at. history: of this mesh, with these values and flags; it
-/// shortens the way to the same bytes, and gets more states, but with max_deviation. Returns how many collapses it
-/// saved.
+/// shortens the way to the same bytes, and gets more states, but with max_deviation; of earlier values, with a warm
+/// start, it shortens the way to others. Returns how many collapses it saved.
 std::int64_t decimate_solid(const MeshView &original, const Boundary &boundary, const Surface &surface,
                             const SolidOptions &options, SolidHistory &history, Job &job, TetMesh &mesh,
                             Array<std::int32_t> &origin);

@@ -118,11 +118,12 @@ class Pipeline {
     const StageTimer timer(Stage::decimate, job_, report_);
     const double diagonal = original_.box.diagonal(), deviation = options_.max_deviation * diagonal;
     const CollapseSizes sizes = collapse_sizes(budget_, options_);
-    const SolidOptions options{sizes.tets, budget_.enough, budget_.dearest, deviation, original_.flags, {}};
+    const SolidOptions options{
+        sizes.tets, budget_.enough, budget_.dearest, deviation, options_.warm_start, original_.flags, {}};
     CoarseSolid coarse(job_.memory);
     const std::string wrong =
         decimate_solid_and_check(original_.view, boundary_, prepared_.surface(job_), prepared_.topology(job_), options,
-                                 sizes.lowered, prepared_.history(job_), job_, coarse);
+                                 sizes.lowered, prepared_.history(options_.warm_start > 0, job_), job_, coarse);
     report_.reused_collapses = coarse.reused;
     if (!wrong.empty()) {
       if (job_.log) job_.log(1, ("edges collapsed in vain, so that it is remeshed: " + wrong).c_str());

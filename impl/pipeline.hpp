@@ -29,6 +29,7 @@ struct Options {
   std::int64_t effort = effort_accurate;  ///< of a run with a target
   double max_error = 0;                   ///< bound of the error at the original vertices, over the range; 0: none
   double max_deviation = 0;               ///< of the boundary, over the diagonal; 0: no limit
+  double warm_start = 0;                  ///< how much larger the error may get where collapses take over earlier ones
   double rho = 0.01;
   double sigma = 0.1;
   double lambda = 0.1;

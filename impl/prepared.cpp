@@ -126,8 +126,8 @@ Prepared::Decimated Prepared::decimate(const DecimateOptions &options, std::int3
   return {report.cleaned_edges, report.deviation, reused};
 }
 
-SolidHistory &Prepared::history(Job &job) {
-  history_.begin(original.view, job.memory);
+SolidHistory &Prepared::history(bool keeps_earlier, Job &job) {
+  history_.begin(original.view, keeps_earlier, job.memory);
   return history_;
 }
 

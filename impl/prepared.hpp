@@ -57,8 +57,8 @@ class Prepared {
   /// index_base.
   Decimated decimate(const DecimateOptions &options, std::int32_t index_base, Job &job, Surface &out);
 
-  /// Of the original while its edges collapsed, with the values that it has now.
-  SolidHistory &history(Job &job);
+  /// Of the original while its edges collapsed, with the values that it has now, or, if asked for, with earlier ones.
+  SolidHistory &history(bool keeps_earlier, Job &job);
 
   /// Of each original vertex, what culling with these found of it at the last decimated surface.
   Span<std::uint8_t> verdicts(double least_distance, std::int64_t leaf, Memory &memory);

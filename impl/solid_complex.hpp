@@ -66,6 +66,7 @@ struct SolidMeasures {
   double least_shape2 = 0;  ///< square of the shape of a tet, below which it is flat
   double volume = 0;
   std::size_t vertices = 0;
+  double weight_of_planes = 0;  ///< in the quadrics
 };
 
 /// How the solid hangs together.

@@ -84,7 +84,7 @@ double SolidMesh<m>::weight_of_planes() const {
 
 template <std::size_t m>
 void SolidMesh<m>::find_quadrics(Job &job) {
-  const double weight = weight_of_planes();
+  const double weight = measures.weight_of_planes = weight_of_planes();
   job.parallel.for_parts(vertices_.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
     add_tets(begin, end, job);
     for (std::size_t v = begin; v < end; v++) add_planes(std::int32_t(v), weight);

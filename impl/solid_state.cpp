@@ -1,5 +1,6 @@
 #include "solid_state.hpp"
 
+#include <cmath>
 #include <numeric>
 
 namespace tetlod {
@@ -19,7 +20,16 @@ SolidProgress::SolidProgress(const SolidProgress &of, Memory &memory)
       next_closing(of.next_closing),
       cheapest(of.cheapest, &memory),
       moved(of.moved, &memory),
-      changed(of.changed, &memory) {}
+      changed(of.changed, &memory),
+      home(of.home, &memory),
+      into(of.into, &memory) {}
+
+void SolidProgress::follow(Span<const std::int32_t> origin, std::size_t originals, Memory &memory) {
+  home.assign(originals, -1);
+  for (std::size_t v = 0; v < origin.size(); v++) home[std::size_t(origin[v])] = std::int32_t(v);
+  into = Array<std::int32_t>(origin.size(), 0, &memory);
+  std::iota(into.begin(), into.end(), 0);
+}
 
 void SolidProgress::close_gaps(Span<const std::int32_t> left, Span<const std::int32_t> number) {
   const auto renumber = [&](std::int32_t &v) { v = v < 0 ? v : number[std::size_t(v)]; };
@@ -27,15 +37,33 @@ void SolidProgress::close_gaps(Span<const std::int32_t> left, Span<const std::in
   keep_alone(left, moved);
   for (CheapestEdge &edge : cheapest) renumber(edge.other);
   for (std::int32_t &v : changed) renumber(v);
+  if (!follows()) return;
+  for (std::int32_t &v : home) {
+    while (v >= 0 && into[std::size_t(v)] != v) v = into[std::size_t(v)];
+    renumber(v);
+  }
+  into.resize(left.size());
+  std::iota(into.begin(), into.end(), 0);
 }
 
-void SolidHistory::begin(const MeshView &original, Memory &memory) {
+void SolidHistory::begin(const MeshView &original, bool keeps_earlier, Memory &memory) {
   Fingerprint values;
   values.add(std::uint64_t(original.fields));
   for (std::size_t k = 0; k < original.fields; k++) values.add(original.scales.weighted[k]);
   for (double value : original.scalars) values.add(value);
-  if (!(values == values_)) forget(memory);
-  values_ = values;
+  now_ = values;
+  if (is_earlier() && !keeps_earlier) forget_earlier(memory);
+}
+
+void SolidHistory::forget_earlier(Memory &memory) {
+  const Fingerprint now = now_;
+  forget(memory);
+  values_ = now_ = now;
+}
+
+/// An error of linear interpolation is of second order.
+double SolidHistory::usual_error(std::int64_t tets) const {
+  return knows_usual_error() ? usual_error_ * std::pow(double(tets_of_error_) / double(tets), 4.0 / 3) : 0;
 }
 
 }  // namespace tetlod

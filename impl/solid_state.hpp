@@ -22,8 +22,12 @@ struct SolidProgress {
   SolidProgress(const SolidProgress &of, Memory &memory);
 
   std::size_t bytes() const {
-    return cheapest.size() * (sizeof(CheapestEdge) + sizeof(int)) + changed.size() * sizeof(std::int32_t);
+    return cheapest.size() * (sizeof(CheapestEdge) + sizeof(int)) +
+           (changed.size() + home.size() + into.size()) * sizeof(std::int32_t);
   }
+  /// From here on `home` is known. origin: of each vertex, the original one.
+  void follow(Span<const std::int32_t> origin, std::size_t originals, Memory &memory);
+  bool follows() const { return !home.empty(); }
   /// Of the vertices that are left alone. number: numbers_of(left).
   void close_gaps(Span<const std::int32_t> left, Span<const std::int32_t> number);
 
@@ -37,6 +41,8 @@ struct SolidProgress {
   Array<CheapestEdge> cheapest;                                            ///< of each vertex
   Array<int> moved;             ///< the round in which each vertex moved last
   Array<std::int32_t> changed;  ///< whose edges cost something else than they did
+  Array<std::int32_t> home;     ///< of each original vertex, the one it had become when gaps were closed last, or -1
+  Array<std::int32_t> into;     ///< of each vertex, the one that it has collapsed into since, or itself
 };
 
 template <std::size_t m>
@@ -50,9 +56,19 @@ class SolidHistory {
  public:
   explicit SolidHistory(Memory &memory) : states_(Array<SolidState<1>>(&memory)) {}
 
-  /// Forgets the states, unless they are of the same values.
-  void begin(const MeshView &original, Memory &memory);
+  /// Forgets the states, unless they are of the same values, or those of earlier ones are to be kept.
+  void begin(const MeshView &original, bool keeps_earlier, Memory &memory);
+  bool is_earlier() const { return !(now_ == values_); }
+  void forget_earlier(Memory &memory);
   void forget(Memory &memory) { *this = SolidHistory(memory); }
+
+  /// The squared error that collapses to so many tets leave, about, as it was for the values of the states.
+  double usual_error(std::int64_t tets) const;
+  bool knows_usual_error() const { return tets_of_error_ > 0; }
+  void set_usual_error(double error, std::int64_t tets) {
+    usual_error_ = error;
+    tets_of_error_ = tets;
+  }
 
   /// The coarsest of the states that the rounds to a target go through, of so many tets at least; null: none is kept.
   template <std::size_t m>
@@ -71,7 +87,9 @@ class SolidHistory {
   }
 
  private:
-  Fingerprint values_;
+  Fingerprint values_, now_;
+  double usual_error_ = 0;
+  std::int64_t tets_of_error_ = 0;
   std::variant<Array<SolidState<1>>, Array<SolidState<2>>, Array<SolidState<3>>, Array<SolidState<4>>> states_;
 };
 

@@ -217,6 +217,70 @@ TEST_F(CollapseReuse, Sizes) {
   EXPECT_GT(level(0, 0.001), 0) << "a later round of a bound";
 }
 
+/// The one promise of the same bytes that is given up, by who asks for it.
+class WarmStart : public CollapseReuse {
+ protected:
+  /// A front that moves.
+  void new_values(double at) {
+    for (std::size_t v = 0; v < cube.values.size(); v++)
+      cube.values[v] = std::tanh(6 * (std::hypot(cube.xyz[3 * v], cube.xyz[3 * v + 1], cube.xyz[3 * v + 2]) - at));
+  }
+
+  double run_with(tetlod_context *of, double warm_start) {
+    set_up(of);
+    tetlod_set_preset(of, TETLOD_PRESET_ACCURATE);
+    tetlod_set_real(of, TETLOD_OPT_WARM_START, warm_start);
+    EXPECT_EQ(tetlod_run(of), TETLOD_OK) << message_of(of);
+    tetlod_error_report error{};
+    error.struct_size = sizeof error;
+    EXPECT_EQ(tetlod_measure_error(of, 1, &error), TETLOD_OK);
+    return error.rms;
+  }
+};
+
+TEST_F(WarmStart, LosesNoMoreThanIsAllowed) {
+  constexpr double allowed = 0.2;
+  new_values(0.6);
+  run_with(context.get(), allowed);
+  EXPECT_EQ(report_of(context.get()).reused_collapses, 0);
+  int warm = 0, runs = 0;
+  for (double at : {0.605, 0.62, 0.65, 0.9, 1.4}) {
+    new_values(at);
+    const double rms = run_with(context.get(), allowed);
+    const Context fresh = make_context();
+    EXPECT_LE(rms, (1 + allowed) * run_with(fresh.get(), 0)) << at;
+    EXPECT_LE(double(report_of(context.get()).tets_out), 1.03 * 0.1 * double(tets()));
+    warm += report_of(context.get()).reused_collapses > 0;
+    runs++;
+  }
+  EXPECT_GT(warm, 0);
+  EXPECT_LT(warm, runs);
+}
+
+TEST_F(WarmStart, WithoutItTheBytesAreThoseOfAFreshRun) {
+  new_values(0.6);
+  run_with(context.get(), 0.5);
+  new_values(0.605);
+  options = {[](tetlod_context *of) {
+    tetlod_set_preset(of, TETLOD_PRESET_ACCURATE);
+    tetlod_set_real(of, TETLOD_OPT_WARM_START, 0);
+  }};
+  EXPECT_EQ(expect_fresh_bytes().reused_collapses, 0);
+}
+
+/// A bound is held whatever it begins with.
+TEST_F(WarmStart, BoundsHold) {
+  options = {[](tetlod_context *of) { tetlod_set_real(of, TETLOD_OPT_MAX_ERROR, 0.01); }};
+  std::int64_t reused = 0;
+  for (double at : {0.6, 0.605, 0.62, 0.9}) {
+    new_values(at);
+    run_with(context.get(), 0.3);
+    EXPECT_LE(report_of(context.get()).max_error, 0.01) << at;
+    reused += report_of(context.get()).reused_collapses;
+  }
+  EXPECT_GT(reused, 0);
+}
+
 /// With a field more, other values of it, another weight, a weight of nothing, and without it again.
 TEST_F(Reuse, FieldsThatSteer) {
   const std::size_t points = cube.values.size();

@@ -1,0 +1,88 @@
+#include "begin_collapses.hpp"
+
+#include <optional>
+
+#include "renew_quadrics.hpp"
+
+namespace tetlod {
+
+namespace {
+
+template <std::size_t m>
+SolidMesh<m> mesh_of(const MeshView &original, const Boundary &boundary, const SolidOptions &options,
+                     const Values<m> &scales, Job &job) {
+  SolidMesh<m> mesh(put_in_order(original, boundary, job), original.values<m>(), scales, job);
+  for (std::size_t i = 0; i < mesh.points.size(); i++) {
+    const auto flagged = [&](Span<const std::uint8_t> flags) {
+      return !flags.empty() && flags[std::size_t(mesh.origin[i])];
+    };
+    if (flagged(options.kept))
+      mesh.ranks[i] = mesh.on_boundary(std::int32_t(i)) ? Rank::kept_boundary : Rank::kept_inner;
+    if (flagged(options.touching)) mesh.ranks[i] = Rank::touching;
+  }
+  return mesh;
+}
+
+/// What a state that earlier values left may have of the usual squared error, so that the root of it all is larger by
+/// no more than the part that is asked for.
+double part_of_error(double warm_start) { return (1 + warm_start) * (1 + warm_start) - 1; }
+
+/// The coarsest of the states that earlier values left that is fine enough for the size and for the new values.
+template <std::size_t m>
+std::optional<SolidRemains<m>> renewed_state(const MeshView &original, const Boundary &boundary,
+                                             const FieldsAsLengths<m> &fields, const SolidOptions &options,
+                                             SolidHistory &history, Job &job) {
+  constexpr double finer = 1.5;      // than the size: the last collapses see the new values
+  constexpr double far_beyond = 16;  // the limit: a finer state will not do, either
+  const std::int64_t tets = std::max(options.tets, options.enough);
+  const double limit = part_of_error(options.warm_start) * history.usual_error(tets);
+  const Array<SolidState<m>> &states = history.states<m>(job.memory);
+  for (std::size_t i = states.size(); i-- > 0;) {
+    const SolidState<m> &state = states[i];
+    if (!state.progress.follows() || double(state.remains.tets.size()) < finer * double(tets)) continue;
+    SolidRemains<m> remains(state.remains, job.memory);
+    const double error = renew_quadrics(original, boundary, fields, state.progress.home, job, remains);
+    if (error <= limit) return remains;
+    if (!(error <= far_beyond * limit)) break;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+template <std::size_t m>
+CollapseStart<m> begin_collapses(const MeshView &original, const Boundary &boundary, const FieldsAsLengths<m> &fields,
+                                 const SolidOptions &options, SolidHistory &history, Job &job) {
+  const auto first_progress = [&](const SolidMesh<m> &solid) {
+    return SolidProgress(solid.points.size(), solid.tets.size(), job.memory);
+  };
+  const bool keeps_states = options.max_deviation <= 0;
+  if (keeps_states && history.is_earlier()) {
+    if (auto remains = renewed_state(original, boundary, fields, options, history, job)) {
+      SolidMesh<m> solid(std::move(*remains), job);
+      SolidProgress progress = first_progress(solid);
+      return {std::move(solid), std::move(progress), false};
+    }
+    history.forget_earlier(job.memory);
+  }
+  const SolidState<m> *const state =
+      keeps_states ? history.before<m>(options.tets, options.enough, job.memory) : nullptr;
+  if (state)
+    return {SolidMesh<m>(SolidRemains<m>(state->remains, job.memory), job), SolidProgress(state->progress, job.memory),
+            true};
+  SolidMesh<m> solid = mesh_of<m>(original, boundary, options, fields.scales, job);
+  SolidProgress progress = first_progress(solid);
+  if (keeps_states && options.warm_start > 0) progress.follow(solid.origin, original.points.size(), job.memory);
+  return {std::move(solid), std::move(progress), keeps_states};
+}
+
+template CollapseStart<1> begin_collapses(const MeshView &, const Boundary &, const FieldsAsLengths<1> &,
+                                          const SolidOptions &, SolidHistory &, Job &);
+template CollapseStart<2> begin_collapses(const MeshView &, const Boundary &, const FieldsAsLengths<2> &,
+                                          const SolidOptions &, SolidHistory &, Job &);
+template CollapseStart<3> begin_collapses(const MeshView &, const Boundary &, const FieldsAsLengths<3> &,
+                                          const SolidOptions &, SolidHistory &, Job &);
+template CollapseStart<4> begin_collapses(const MeshView &, const Boundary &, const FieldsAsLengths<4> &,
+                                          const SolidOptions &, SolidHistory &, Job &);
+
+}  // namespace tetlod

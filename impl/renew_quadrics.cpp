@@ -1,0 +1,156 @@
+#include "renew_quadrics.hpp"
+
+#include <numeric>
+
+#include "tet_frame.hpp"
+
+namespace tetlod {
+
+namespace {
+
+template <std::size_t m>
+class QuadricRenewal {
+ public:
+  using Place = Vector<3 + m>;
+
+  QuadricRenewal(const MeshView &original, const Boundary &boundary, const FieldsAsLengths<m> &fields,
+                 Span<const std::int32_t> home, Job &job, SolidRemains<m> &remains)
+      : original_(original),
+        boundary_(boundary),
+        fields_(fields),
+        home_(home),
+        job_(job),
+        remains_(remains),
+        error_(remains.vertices.size(), 0.0, &job.memory) {}
+
+  double run() {
+    begin();
+    const std::size_t vertices = remains_.vertices.size();
+    job_.parallel.for_parts(vertices, [&](std::size_t, std::size_t begin, std::size_t end) {
+      add_tets(begin, end);
+      add_planes(begin, end);
+      for (std::size_t v = begin; v < end; v++)
+        if (remains_.points[v] != original_point(v)) fit_values(v);
+    });
+    return std::accumulate(error_.begin(), error_.end(), 0.0);
+  }
+
+ private:
+  const Vec3 &original_point(std::size_t v) const { return original_.points[std::size_t(remains_.origin[v])]; }
+
+  Place original_place(std::int32_t v) const {
+    const Vec3 &p = original_.points[std::size_t(v)];
+    Place place{p.x, p.y, p.z};
+    for (std::size_t i = 0; i < m; i++) place[3 + i] = fields_.scales[i] * original_.values<m>()[std::size_t(v)][i];
+    return place;
+  }
+  Place place(std::size_t v) const {
+    const Vec3 &p = remains_.points[v];
+    Place place{p.x, p.y, p.z};
+    for (std::size_t i = 0; i < m; i++) place[3 + i] = remains_.vertices[v].lengths[i];
+    return place;
+  }
+
+  void begin() {
+    for (std::size_t v = 0; v < remains_.vertices.size(); v++) {
+      remains_.vertices[v] = {};
+      const Place at = original_place(remains_.origin[v]);
+      std::copy(at.begin() + 3, at.end(), remains_.vertices[v].lengths.begin());
+    }
+  }
+
+  /// The squared distance from what goes through an original place.
+  void add_square(std::size_t v, const Place &normal, const Place &through, double weight) {
+    const double off = dot<3 + m>(normal, minus(place(v), through));
+    LocalQuadric<3 + m> &quadric = remains_.vertices[v].quadric;
+    quadric.add_square(normal, weight);
+    quadric.g = along(quadric.g, weight * off, normal);
+    error_[v] += weight * off * off;
+  }
+
+  /// To the quadrics of the vertices begin to end.
+  void add_tets(std::size_t begin, std::size_t end) {
+    for (std::size_t t = 0; t < original_.tets.size(); t++) {
+      if (t % 65536 == 0) job_.poll(0);
+      if (!boundary_.excluded.empty() && boundary_.excluded[t]) continue;
+      const Tet &tet = original_.tets[t];
+      std::size_t homes[4];
+      bool any = false;
+      for (std::size_t k = 0; k < 4; k++) {
+        homes[k] = std::size_t(home_[std::size_t(tet[k])]);
+        any |= homes[k] - begin < end - begin;
+      }
+      if (any) add_tet(tet, homes, begin, end);
+    }
+  }
+
+  void add_tet(const Tet &tet, const std::size_t homes[4], std::size_t begin, std::size_t end) {
+    Place corner[4];
+    for (std::size_t k = 0; k < 4; k++) corner[k] = original_place(tet[k]);
+    const TetFrame frame(point_of(corner[0]), point_of(corner[1]), point_of(corner[2]), point_of(corner[3]));
+    for (std::size_t i = 0; i < m; i++) {
+      Vec3 g = frame.gradient(corner[0][3 + i], corner[1][3 + i], corner[2][3 + i], corner[3][3 + i]);
+      if (!std::isfinite(g.x + g.y + g.z)) g = Vec3(0);
+      Place upright{-g.x, -g.y, -g.z};
+      upright[3 + i] = 1;
+      for (std::size_t k = 0; k < 4; k++)
+        if (homes[k] - begin < end - begin) add_square(homes[k], upright, corner[k], 1);
+    }
+  }
+
+  void add_planes(std::size_t begin, std::size_t end) {
+    for (const Triangle &t : boundary_.triangles) {
+      const auto p = [&](std::size_t k) { return original_.points[std::size_t(t[k])]; };
+      const Vec3 n = area_vector(p(0), p(1), p(2));
+      const double length = glm::length(n);
+      if (!(length > 0)) continue;
+      for (std::int32_t v : t) {
+        const auto home = std::size_t(home_[std::size_t(v)]);
+        if (home - begin < end - begin)
+          add_square(home, {n.x / length, n.y / length, n.z / length}, original_place(v),
+                     remains_.measures.weight_of_planes);
+      }
+    }
+  }
+
+  /// Each field has squares of its own.
+  void fit_values(std::size_t v) {
+    SolidVertex<m> &vertex = remains_.vertices[v];
+    Place step{};
+    for (std::size_t i = 0; i < m; i++) {
+      const double tets = vertex.quadric.a[entry_of(3 + i, 3 + i)], slope = vertex.quadric.g[3 + i];
+      if (!(tets > 0)) continue;
+      step[3 + i] = -slope / tets;
+      error_[v] -= slope * slope / tets;
+      vertex.lengths[i] += step[3 + i];
+    }
+    vertex.quadric = vertex.quadric.moved(step);
+  }
+
+  const MeshView &original_;
+  const Boundary &boundary_;
+  const FieldsAsLengths<m> &fields_;
+  Span<const std::int32_t> home_;
+  Job &job_;
+  SolidRemains<m> &remains_;
+  Array<double> error_;  // of each vertex
+};
+
+}  // namespace
+
+template <std::size_t m>
+double renew_quadrics(const MeshView &original, const Boundary &boundary, const FieldsAsLengths<m> &fields,
+                      Span<const std::int32_t> home, Job &job, SolidRemains<m> &remains) {
+  return QuadricRenewal<m>(original, boundary, fields, home, job, remains).run();
+}
+
+template double renew_quadrics(const MeshView &, const Boundary &, const FieldsAsLengths<1> &, Span<const std::int32_t>,
+                               Job &, SolidRemains<1> &);
+template double renew_quadrics(const MeshView &, const Boundary &, const FieldsAsLengths<2> &, Span<const std::int32_t>,
+                               Job &, SolidRemains<2> &);
+template double renew_quadrics(const MeshView &, const Boundary &, const FieldsAsLengths<3> &, Span<const std::int32_t>,
+                               Job &, SolidRemains<3> &);
+template double renew_quadrics(const MeshView &, const Boundary &, const FieldsAsLengths<4> &, Span<const std::int32_t>,
+                               Job &, SolidRemains<4> &);
+
+}  // namespace tetlod

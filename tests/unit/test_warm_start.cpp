@@ -1,0 +1,121 @@
+// New values on what collapses of earlier ones left: the quadrics are those of the original, and the result is near.
+#include "decimate_solid_fixture.hpp"
+#include "renew_quadrics.hpp"
+#include "tet_frame.hpp"
+
+namespace tetlod {
+namespace {
+
+using namespace test;
+
+class WarmStart : public DecimateSolid {
+ protected:
+  WarmStart() { options.warm_start = 0.1; }
+
+  static double front(const Vec3 &p, double at) { return std::tanh(8 * (glm::length(p) - at)); }
+
+  void start_with_front(int cells, double at) {
+    Mesh mesh = kuhn_cube(cells);
+    set_scalars(mesh, [&](const Vec3 &p) { return front(p, at); });
+    start_with(mesh);
+  }
+
+  /// Another field on the same mesh, of which the history has the one before.
+  std::int64_t go_on_with(const Field &field, double ratio, Host &on, SolidHistory &history, CoarseSolid &coarse) {
+    set_scalars(original, field);
+    start_with(original);
+    history.begin(original.view(), true, on.memory);
+    EXPECT_TRUE(decimate(ratio, on, history, coarse)) << failure;
+    return coarse.reused;
+  }
+
+  /// What the tets that became a part of a vertex say of its value, as they are continued to it.
+  double squared_error(const SolidState<1> &state, const FieldsAsLengths<1> &fields, std::int32_t vertex,
+                       double length) const {
+    double sum = 0;
+    const Vec3 at = state.remains.points[std::size_t(vertex)];
+    for (const Tet &t : original.tets) {
+      Vec3 p[4];
+      double value[4];
+      for (std::size_t k = 0; k < 4; k++) {
+        p[k] = original.points[std::size_t(t[k])];
+        value[k] = fields.scales[0] * original.scalars[std::size_t(t[k])];
+      }
+      double w[4];
+      TetFrame(p[0], p[1], p[2], p[3]).weights(at, w);
+      const double off = length - (w[0] * value[0] + w[1] * value[1] + w[2] * value[2] + w[3] * value[3]);
+      for (std::int32_t v : t) sum += state.progress.home[std::size_t(v)] == vertex ? off * off : 0;
+    }
+    for (const Triangle &t : boundary.triangles) {
+      const auto p = [&](std::size_t k) { return original.points[std::size_t(t[k])]; };
+      const double off = glm::dot(glm::normalize(area_vector(p(0), p(1), p(2))), at - p(0));
+      for (std::int32_t v : t)
+        if (state.progress.home[std::size_t(v)] == vertex) sum += state.remains.measures.weight_of_planes * off * off;
+    }
+    return sum;
+  }
+};
+
+TEST_F(WarmStart, QuadricsAreThoseOfTheOriginal) {
+  start_with_front(6, 0.6);
+  transform(original, [](const Vec3 &p) { return p + 0.05 * Vec3(std::sin(7 * p.y), 0, std::sin(6 * p.x)); });
+  start_with(original);
+  SolidHistory history(host.memory);
+  CoarseSolid coarse(host.memory);
+  ASSERT_TRUE(decimate(0.1, host, history, coarse)) << failure;
+  const Array<SolidState<1>> &states = history.states<1>(host.memory);
+  ASSERT_FALSE(states.empty());
+  set_scalars(original, waves);
+  const FieldsAsLengths<1> fields(original.view(), 1);
+  for (const SolidState<1> &state : states) {
+    ASSERT_TRUE(state.progress.follows());
+    SolidRemains<1> remains(state.remains, host.memory);
+    const double error = renew_quadrics<1>(original.view(), boundary, fields, state.progress.home, host.job, remains);
+    double sum = 0;
+    for (std::size_t v = 0; v < remains.points.size(); v++) {
+      const double length = remains.vertices[v].lengths[0];
+      const double at = squared_error(state, fields, std::int32_t(v), length);
+      sum += at;
+      const LocalQuadric<4> &quadric = remains.vertices[v].quadric;
+      for (double step : {0.01, -0.02}) {
+        const double change = squared_error(state, fields, std::int32_t(v), length + step) - at;
+        EXPECT_NEAR(quadric.a.back() * step * step + 2 * quadric.g[3] * step, change, 1e-9);
+        const bool has_moved = remains.points[v] != original.points[std::size_t(remains.origin[v])];
+        EXPECT_TRUE(!has_moved || change > -1e-9) << "its value is the best";
+      }
+    }
+    EXPECT_NEAR(error, sum, 1e-9 * (1 + sum));
+  }
+}
+
+TEST_F(WarmStart, BeginsWhereASlowFrontLeftTheSolid) {
+  start_with_front(20, 0.6);
+  for (int threads : {1, 2}) {
+    Host on(threads);
+    SolidHistory history(on.memory);
+    CoarseSolid first(on.memory);
+    history.begin(original.view(), true, on.memory);
+    ASSERT_TRUE(decimate(0.1, on, history, first));
+    for (double at : {0.601, 0.603}) {
+      CoarseSolid next(on.memory);
+      const auto moved = [at](const Vec3 &p) { return front(p, at); };
+      EXPECT_GT(go_on_with(moved, 0.1, on, history, next), std::int64_t(original.points.size() / 2)) << at;
+      expect_sound(next);
+      EXPECT_LE(std::int64_t(next.mesh.tets.size()), options.tets);
+    }
+  }
+}
+
+TEST_F(WarmStart, BeginsAnewWhereTheValuesAreOthers) {
+  start_with_front(12, 0.6);
+  SolidHistory history(host.memory);
+  CoarseSolid first(host.memory), next(host.memory), alone(host.memory);
+  history.begin(original.view(), true, host.memory);
+  ASSERT_TRUE(decimate(0.1, host, history, first));
+  EXPECT_EQ(go_on_with(waves, 0.1, host, history, next), 0);
+  ASSERT_TRUE(decimate(0.1, host, alone));
+  expect_same(next.mesh, alone.mesh);
+}
+
+}  // namespace
+}  // namespace tetlod
