@@ -30,11 +30,12 @@ struct Apart {
   bool operator<(const Apart &o) const { return distance != o.distance ? distance > o.distance : at < o.at; }
 };
 
-/// A point of the original's boundary.
+/// Where a vertex is to be, with the values of the original's boundary where that is nearest.
 struct Aim {
-  Vec3 point;
+  Vec3 point, nearest;
   Few<double, most_fields> values;
   std::int32_t origin;  ///< the original vertex that it is, or -1
+  double distance() const { return glm::length(point - nearest); }
 };
 
 /// What becomes of the tets and triangles that have some vertices in common.
@@ -188,42 +189,49 @@ class DeviationLowering {
     return of_vertex_[v] == apart.distance && serve_vertex(std::int32_t(v), limit);
   }
 
-  /// Takes the nearest of the mesh's boundary to an original vertex.
+  /// Takes the nearest of the mesh's boundary to an original vertex, or else one of the corners there as far.
   bool serve_sample(std::size_t sample, double limit) {
     if (home_[sample] < 0) return false;
+    const Vec3 to = original_.points[sample];
     const Triangle home = mesh_.boundary[std::size_t(home_[sample])];
-    const Vec3 w = weights_in(home, original_.points[sample]), from = at_weights(home, w);
-    Aim aim{original_.points[sample], {}, original_.origin[sample]};
-    for (std::size_t k = 0; k < original_.fields; k++)
-      aim.values.push(original_.scalars[sample * original_.fields + k]);
-    const auto nearest = std::size_t(w.x >= w.y && w.x >= w.z ? 0 : w.y >= w.z ? 1 : 2);
+    const Vec3 w = weights_in(home, to), from = at_weights(home, w);
     Change::Simplex ends;
     for (std::size_t k = 0; k < 3; k++)
       if (w[int(k)] >= far_corner) ends.push(home[k]);
     for (double part : parts_of_way) {
-      if (part < 1) aim.origin = -1;
-      aim.point = from + part * (original_.points[sample] - from);
-      if (w[int(nearest)] > near_corner && move(home[nearest], aim, limit)) return true;
+      const Aim aim = part < 1 ? aim_near(from + part * (to - from)) : aim_at(sample);
+      for (std::size_t k = 0; k < 3; k++)
+        if (w[int(k)] > near_corner && move(home[k], aim, limit)) return true;
       if (ends.size() > 1 && divide(ends, aim, limit)) return true;
     }
+    for (double part : parts_of_way)
+      for (std::int32_t v : ends)
+        if (move(v, aim_near(mesh_.points[std::size_t(v)] + part * (to - from)), limit)) return true;
     return false;
   }
 
   /// Takes a vertex of the mesh's boundary to the original's.
   bool serve_vertex(std::int32_t v, double limit) {
-    const Vec3 from = mesh_.points[std::size_t(v)];
-    const NearestPoint nearest = to_original_.nearest(from);
-    if (nearest.triangle < 0) return false;
+    const Vec3 from = mesh_.points[std::size_t(v)], to = aim_near(from).nearest;
+    return std::any_of(std::begin(parts_of_way), std::end(parts_of_way),
+                       [&](double part) { return move(v, aim_near(from + part * (to - from)), limit); });
+  }
+
+  Aim aim_at(std::size_t sample) const {
+    const Vec3 &p = original_.points[sample];
+    Aim aim{p, p, {}, original_.origin[sample]};
+    for (std::size_t field = 0; field < original_.fields; field++)
+      aim.values.push(original_.scalars[sample * original_.fields + field]);
+    return aim;
+  }
+
+  Aim aim_near(const Vec3 &p) const {
+    const NearestPoint nearest = to_original_.nearest(p);
     const Triangle &t = original_.triangles[std::size_t(nearest.triangle)];
-    Vec3 to(0);
-    for (int k = 0; k < 3; k++) to += nearest.weights[k] * original_.points[std::size_t(t[std::size_t(k)])];
-    Aim aim{to, {}, -1};
+    Aim aim{p, Vec3(0), {}, -1};
+    for (int k = 0; k < 3; k++) aim.nearest += nearest.weights[k] * original_.points[std::size_t(t[std::size_t(k)])];
     for (std::size_t field = 0; field < original_.fields; field++) aim.values.push(value_at(t, nearest.weights, field));
-    for (double part : parts_of_way) {
-      aim.point = from + part * (to - from);
-      if (move(v, aim, limit)) return true;
-    }
-    return false;
+    return aim;
   }
 
   /// Not beyond those at the corners by rounding.
@@ -256,14 +264,14 @@ class DeviationLowering {
     if (!may_change(alone)) return false;
     look_around(alone, v);
     const Vec3 before = std::exchange(mesh_.points[std::size_t(v)], aim.point);
-    if (!suits(limit)) {
+    if (!suits(aim, limit)) {
       mesh_.points[std::size_t(v)] = before;
       return false;
     }
     std::copy(aim.values.begin(), aim.values.end(),
               mesh_.scalars.begin() + std::ptrdiff_t(std::size_t(v) * original_.fields));
     origin_[std::size_t(v)] = aim.origin;
-    of_vertex_[std::size_t(v)] = to_original_.nearest(aim.point).distance;
+    of_vertex_[std::size_t(v)] = aim.distance();
     make();
     return true;
   }
@@ -274,13 +282,13 @@ class DeviationLowering {
     look_around(ends, std::int32_t(mesh_.points.size()));
     if (mesh_.tets.size() + change_.fresh_tets.size() - change_.tets.size() > most_) return false;
     mesh_.points.push_back(aim.point);
-    if (!suits(limit)) {
+    if (!suits(aim, limit)) {
       mesh_.points.pop_back();
       return false;
     }
     mesh_.scalars.insert(mesh_.scalars.end(), aim.values.begin(), aim.values.end());
     origin_.push_back(aim.origin);
-    of_vertex_.push_back(to_original_.nearest(aim.point).distance);
+    of_vertex_.push_back(aim.distance());
     touched_.push_back(1);
     make();
     return true;
@@ -300,7 +308,7 @@ class DeviationLowering {
   }
 
   /// Whether the tets are sound, and nothing that is concerned is farther off than the limit.
-  bool suits(double limit) {
+  bool suits(const Aim &aim, double limit) {
     const auto sound = [&](const Tet &t) {
       const auto p = [&](std::size_t k) { return mesh_.points[std::size_t(t[k])]; };
       return is_sound(p(0), p(1), p(2), p(3), least_shape);
@@ -309,8 +317,8 @@ class DeviationLowering {
       const Vec3 middle = (corner(t, 0) + corner(t, 1) + corner(t, 2)) / 3.0;
       return to_original_.nearest(middle).distance <= limit;
     };
-    return std::all_of(change_.fresh_tets.begin(), change_.fresh_tets.end(), sound) && finds_homes(limit) &&
-           std::all_of(change_.fresh_triangles.begin(), change_.fresh_triangles.end(), near);
+    return aim.distance() <= limit && std::all_of(change_.fresh_tets.begin(), change_.fresh_tets.end(), sound) &&
+           finds_homes(limit) && std::all_of(change_.fresh_triangles.begin(), change_.fresh_triangles.end(), near);
   }
 
   /// For the samples that the old triangles stood for.

@@ -77,7 +77,9 @@ TEST_F(LowerDeviation, AVertexThatIsLackingComesWhereThereIsRoomForIt) {
     changed.tets.pop_back();
   };
   const auto tets = std::int64_t(cube.tets.size());
-  EXPECT_NEAR(lower(tets, lacking), 0.1, 1e-15);
+  const double by_moves = lower(tets, lacking);
+  EXPECT_GT(by_moves, 0.05);
+  EXPECT_LT(by_moves, 0.1);
   EXPECT_EQ(mesh.points.size(), cube.points.size());
   EXPECT_LT(lower(tets + 2, lacking), 1e-15);
   EXPECT_EQ(mesh.points.back(), peak);
