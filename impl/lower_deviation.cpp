@@ -4,8 +4,7 @@
 #include <limits>
 #include <utility>
 
-#include "few.hpp"
-#include "star_lists.hpp"
+#include "replace_simplices.hpp"
 #include "surface_distance.hpp"
 #include "tet_frame.hpp"
 
@@ -18,6 +17,8 @@ constexpr std::size_t block = 256;
 constexpr int sweeps = 6;
 /// What a change leaves of a distance, at most; to gain less is not worth it.
 constexpr double most_left = 0.8;
+/// Of the original's volume, that the mesh may lack or have too much.
+constexpr double most_volume = 0.0099;
 /// Of the way to where it would be none, what is tried.
 constexpr double parts_of_way[] = {1, 0.6, 0.3};
 /// A corner of more weight than that moves; one of less is no end of what is divided.
@@ -40,7 +41,6 @@ struct Aim {
 
 /// What becomes of the tets and triangles that have some vertices in common.
 struct Change {
-  using Simplex = Few<std::int32_t, 3>;
   struct Home {
     std::int32_t sample;
     std::size_t triangle;  ///< of the fresh ones
@@ -52,47 +52,8 @@ struct Change {
   Array<Tet> fresh_tets;
   Array<Triangle> fresh_triangles;
   Array<Home> homes;  ///< of the samples that the triangles stood for
+  double old_volume6 = 0, fresh_volume6 = 0;
 };
-
-template <std::size_t corners>
-bool has_all(const std::array<std::int32_t, corners> &simplex, const Change::Simplex &vertices) {
-  return std::all_of(vertices.begin(), vertices.end(),
-                     [&](std::int32_t v) { return std::find(simplex.begin(), simplex.end(), v) != simplex.end(); });
-}
-
-/// Those in the list of the first vertex that have all.
-template <std::size_t corners>
-void find_with(const Change::Simplex &vertices, const StarLists &lists,
-               const Array<std::array<std::int32_t, corners>> &simplices, Array<std::int32_t> &found) {
-  found.clear();
-  for (std::int32_t s : lists.of(vertices[0]))
-    if (has_all(simplices[std::size_t(s)], vertices)) found.push_back(s);
-}
-
-/// Each of `old` with `by` in the place of one of the vertices, for each of them.
-template <std::size_t corners>
-void replace_each(Span<const std::int32_t> old, const Change::Simplex &vertices, std::int32_t by,
-                  const Array<std::array<std::int32_t, corners>> &simplices,
-                  Array<std::array<std::int32_t, corners>> &fresh) {
-  fresh.clear();
-  for (std::int32_t s : old)
-    for (std::int32_t v : vertices) {
-      fresh.push_back(simplices[std::size_t(s)]);
-      std::replace(fresh.back().begin(), fresh.back().end(), v, by);
-    }
-}
-
-/// `fresh` take the places of `old`, and further ones.
-template <std::size_t corners>
-void put(Span<const std::int32_t> old, const Array<std::array<std::int32_t, corners>> &fresh,
-         Array<std::array<std::int32_t, corners>> &simplices) {
-  for (std::size_t i = 0; i < fresh.size(); i++) {
-    if (i < old.size())
-      simplices[std::size_t(old[i])] = fresh[i];
-    else
-      simplices.push_back(fresh[i]);
-  }
-}
 
 class DeviationLowering {
  public:
@@ -110,7 +71,9 @@ class DeviationLowering {
         next_(original.points.size(), -1, &job.memory),
         home_(original.points.size(), -1, &job.memory),
         touched_(&job.memory),
-        change_(job.memory) {
+        change_(job.memory),
+        volume6_(volume6_of(original.points, original.triangles)),
+        excess6_(volume6_of(mesh.points, mesh.boundary) - volume6_) {
     measure_samples();
     measure_vertices();
   }
@@ -127,6 +90,17 @@ class DeviationLowering {
 
  private:
   std::size_t vertices() const { return original_.points.size(); }
+
+  static double volume6_of(Span<const Vec3> points, Span<const Triangle> triangles) {
+    double sum = 0;
+    for (const Triangle &t : triangles)
+      sum += det(points[0], points[std::size_t(t[0])], points[std::size_t(t[1])], points[std::size_t(t[2])]);
+    return sum;
+  }
+  double volume6_of(const Tet &t) const {
+    const auto p = [&](std::size_t k) { return mesh_.points[std::size_t(t[k])]; };
+    return det(p(0), p(1), p(2), p(3));
+  }
 
   void measure_samples() {
     const NearestTriangle to_mesh(mesh_.points, mesh_.boundary, leaf, job_);
@@ -195,7 +169,7 @@ class DeviationLowering {
     const Vec3 to = original_.points[sample];
     const Triangle home = mesh_.boundary[std::size_t(home_[sample])];
     const Vec3 w = weights_in(home, to), from = at_weights(home, w);
-    Change::Simplex ends;
+    FewVertices ends;
     for (std::size_t k = 0; k < 3; k++)
       if (w[int(k)] >= far_corner) ends.push(home[k]);
     for (double part : parts_of_way) {
@@ -259,7 +233,7 @@ class DeviationLowering {
   }
 
   bool move(std::int32_t v, const Aim &aim, double limit) {
-    Change::Simplex alone;
+    FewVertices alone;
     alone.push(v);
     if (!may_change(alone)) return false;
     look_around(alone, v);
@@ -277,7 +251,7 @@ class DeviationLowering {
   }
 
   /// An edge or a triangle gets a vertex.
-  bool divide(const Change::Simplex &ends, const Aim &aim, double limit) {
+  bool divide(const FewVertices &ends, const Aim &aim, double limit) {
     if (!may_change(ends)) return false;
     look_around(ends, std::int32_t(mesh_.points.size()));
     if (mesh_.tets.size() + change_.fresh_tets.size() - change_.tets.size() > most_) return false;
@@ -294,17 +268,19 @@ class DeviationLowering {
     return true;
   }
 
-  bool may_change(const Change::Simplex &vertices) const {
+  bool may_change(const FewVertices &vertices) const {
     return std::none_of(vertices.begin(), vertices.end(),
                         [&](std::int32_t v) { return touched_[std::size_t(v)] || is_kept(v); });
   }
 
   /// What becomes of all that has the vertices when `by` comes in the place of each.
-  void look_around(const Change::Simplex &vertices, std::int32_t by) {
+  void look_around(const FewVertices &vertices, std::int32_t by) {
     find_with(vertices, *tets_, mesh_.tets, change_.tets);
     find_with(vertices, *triangles_, mesh_.boundary, change_.triangles);
     replace_each(change_.tets, vertices, by, mesh_.tets, change_.fresh_tets);
     replace_each(change_.triangles, vertices, by, mesh_.boundary, change_.fresh_triangles);
+    change_.old_volume6 = change_.fresh_volume6 = 0;
+    for (std::int32_t t : change_.tets) change_.old_volume6 += volume6_of(mesh_.tets[std::size_t(t)]);
   }
 
   /// Whether the tets are sound, and nothing that is concerned is farther off than the limit.
@@ -318,7 +294,14 @@ class DeviationLowering {
       return to_original_.nearest(middle).distance <= limit;
     };
     return aim.distance() <= limit && std::all_of(change_.fresh_tets.begin(), change_.fresh_tets.end(), sound) &&
-           finds_homes(limit) && std::all_of(change_.fresh_triangles.begin(), change_.fresh_triangles.end(), near);
+           keeps_volume() && finds_homes(limit) &&
+           std::all_of(change_.fresh_triangles.begin(), change_.fresh_triangles.end(), near);
+  }
+
+  bool keeps_volume() {
+    for (const Tet &t : change_.fresh_tets) change_.fresh_volume6 += volume6_of(t);
+    const double excess6 = excess6_ + change_.fresh_volume6 - change_.old_volume6;
+    return std::abs(excess6) <= std::max(std::abs(excess6_), most_volume * volume6_);
   }
 
   /// For the samples that the old triangles stood for.
@@ -345,6 +328,7 @@ class DeviationLowering {
   }
 
   void make() {
+    excess6_ += change_.fresh_volume6 - change_.old_volume6;
     for (const Tet &t : change_.fresh_tets)
       for (std::int32_t v : t) touched_[std::size_t(v)] = 1;
     const std::size_t olds = change_.triangles.size(), end = mesh_.boundary.size();
@@ -373,6 +357,7 @@ class DeviationLowering {
   const StarLists *tets_ = nullptr, *triangles_ = nullptr;  // as the sweep began
   Array<std::uint8_t> touched_;                             // vertices whose tets changed since
   Change change_;
+  double volume6_, excess6_;  // of the original; what the mesh has more
 };
 
 }  // namespace

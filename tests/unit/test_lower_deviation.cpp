@@ -19,9 +19,11 @@ class LowerDeviation : public DecimateSolid {
     boundary_of(mesh);
     origin.assign(mesh.points.size(), 0);
     for (std::size_t v = 0; v < origin.size(); v++)
-      origin[v] = v < original.points.size() && mesh.points[v] == original.points[v] ? std::int32_t(v) : -1;
+      origin[v] = mesh.points[v] == original.points[v] || is_kept(v) ? std::int32_t(v) : -1;
     return lower_deviation(surface, {stays.data(), stays.size()}, most, host.job, mesh, origin);
   }
+
+  bool is_kept(std::size_t v) const { return !stays.empty() && stays[v]; }
 
   void boundary_of(TetMesh &of) {
     Boundary found(host.memory);
@@ -108,6 +110,31 @@ TEST_F(LowerDeviation, LowersWhatCollapsesLeft) {
       EXPECT_TRUE(at < 0 || with.mesh.points[v] == original.points[std::size_t(at)]);
     }
   }
+}
+
+/// Bumps on one wall of a cube are as large as dents in the other, which stay.
+TEST_F(LowerDeviation, KeepsTheVolume) {
+  constexpr int cells = 6;
+  Mesh cube = kuhn_cube(cells);
+  set_scalars(cube, waves);
+  start_with(cube);
+  stays.assign(cube.points.size(), 0);
+  lower(std::int64_t(cube.tets.size()), [&](Mesh &changed) {
+    for (int i = 1; i < cells; i += 2)
+      for (int j = 1; j < cells; j += 2) {
+        const double x = double(i) / cells, y = double(j) / cells;
+        changed.points[vertex_at(cube, {x, y, 1})].z += 0.1;
+        changed.points[vertex_at(cube, {x, y, 0})].z += 0.1;
+        stays[vertex_at(cube, {x, y, 0})] = 1;
+      }
+  });
+  int bumps = 0;
+  for (const Vec3 &p : mesh.points) bumps += p.z > 1;
+  EXPECT_GT(bumps, 0);
+  EXPECT_LT(bumps, 9);
+  Mesh now = cube;
+  now.points.assign(mesh.points.begin(), mesh.points.end());
+  EXPECT_NEAR(volume_of(now), 1, 0.01);
 }
 
 }  // namespace
