@@ -105,13 +105,21 @@ struct CollapseSizes {
   std::int64_t lowered = 0;  ///< when the boundary has gone back where it was farthest off; 0: it does not
 };
 
-/// What a bound asks for, and few tets, serve the field alone.
+/// What a bound asks for, and few tets, serve the field alone; else a part of what the largest errors get serves the
+/// boundary before.
 inline CollapseSizes collapse_sizes(const Budget &budget, const Options &options) {
   constexpr std::int64_t part = 400;
   const std::int64_t most = before_lowering(budget.tets, options.max_error);
   if (budget.enough > 0) return {budget.least, 0};
   const bool lowers = options.effort == effort_accurate && most < budget.tets && options.max_deviation <= 0;
   return lowers ? CollapseSizes{most - most / part, most} : CollapseSizes{most, 0};
+}
+
+/// How many tets there shall be before the largest errors get the rest; what the boundary got stays.
+inline std::int64_t tets_before_lowering(const Budget &budget, const Options &options, bool collapsed,
+                                         std::size_t tets) {
+  const std::int64_t before = before_lowering(budget.tets, options.max_error);
+  return collapsed ? std::min(std::int64_t(tets), before) : before;
 }
 
 }  // namespace tetlod

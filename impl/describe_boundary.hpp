@@ -19,4 +19,11 @@ inline void describe_simplified_boundary(const SurfaceTopology &simplified, Repo
   report.boundary_triangles_out = std::int64_t(simplified.component.size());
 }
 
+/// Each, in a triangle or on an edge, brings three edges and two triangles.
+inline void describe_insertions(std::int64_t vertices, Report &report) {
+  report.boundary_points_out += vertices;
+  report.boundary_edges_out += 3 * vertices;
+  report.boundary_triangles_out += 2 * vertices;
+}
+
 }  // namespace tetlod

@@ -17,6 +17,10 @@ constexpr std::size_t block = 256;
 constexpr int sweeps = 6;
 /// What a change leaves of a distance, at most; to gain less is not worth it.
 constexpr double most_left = 0.8;
+/// Of the flattest tet's shape before: no tet gets flatter.
+constexpr double flattest_part = 0.2;
+/// Of the diagonal: a smaller distance is of rounding.
+constexpr double least_distance = 1e-12;
 /// Of the original's volume, that the mesh may lack or have too much.
 constexpr double most_volume = 0.0099;
 /// Of the way to where it would be none, what is tried.
@@ -53,6 +57,7 @@ struct Change {
   Array<Triangle> fresh_triangles;
   Array<Home> homes;  ///< of the samples that the triangles stood for
   double old_volume6 = 0, fresh_volume6 = 0;
+  double least_shape2 = 0;  ///< of the old tets
 };
 
 class DeviationLowering {
@@ -64,6 +69,7 @@ class DeviationLowering {
         job_(job),
         mesh_(mesh),
         origin_(origin),
+        least_(least_distance * box_of(original.points).diagonal()),
         to_original_(original.points, original.triangles, leaf, job),
         of_sample_(original.points.size(), 0.0, &job.memory),
         of_vertex_(mesh.points.size(), 0.0, &job.memory),
@@ -97,10 +103,9 @@ class DeviationLowering {
       sum += det(points[0], points[std::size_t(t[0])], points[std::size_t(t[1])], points[std::size_t(t[2])]);
     return sum;
   }
-  double volume6_of(const Tet &t) const {
-    const auto p = [&](std::size_t k) { return mesh_.points[std::size_t(t[k])]; };
-    return det(p(0), p(1), p(2), p(3));
-  }
+  const Vec3 &point(const Tet &t, std::size_t k) const { return mesh_.points[std::size_t(t[k])]; }
+  double volume6_of(const Tet &t) const { return det(point(t, 0), point(t, 1), point(t, 2), point(t, 3)); }
+  double shape2_of(const Tet &t) const { return shape2(point(t, 0), point(t, 1), point(t, 2), point(t, 3)); }
 
   void measure_samples() {
     const NearestTriangle to_mesh(mesh_.points, mesh_.boundary, leaf, job_);
@@ -133,9 +138,9 @@ class DeviationLowering {
     constexpr std::size_t moves = 16;
     Array<Apart> worst(&job_.memory);
     for (std::size_t i = 0; i < of_sample_.size(); i++)
-      if (of_sample_[i] > 0) worst.push_back({of_sample_[i], i});
+      if (of_sample_[i] > least_) worst.push_back({of_sample_[i], i});
     for (std::size_t v = 0; v < of_vertex_.size(); v++)
-      if (of_vertex_[v] > 0) worst.push_back({of_vertex_[v], vertices() + v});
+      if (of_vertex_[v] > least_) worst.push_back({of_vertex_[v], vertices() + v});
     const std::size_t room = most_ - std::min(most_, mesh_.tets.size()),
                       count = std::min(worst.size(), moves + room / 2);
     std::partial_sort(worst.begin(), worst.begin() + std::ptrdiff_t(count), worst.end());
@@ -280,14 +285,18 @@ class DeviationLowering {
     replace_each(change_.tets, vertices, by, mesh_.tets, change_.fresh_tets);
     replace_each(change_.triangles, vertices, by, mesh_.boundary, change_.fresh_triangles);
     change_.old_volume6 = change_.fresh_volume6 = 0;
-    for (std::int32_t t : change_.tets) change_.old_volume6 += volume6_of(mesh_.tets[std::size_t(t)]);
+    change_.least_shape2 = std::numeric_limits<double>::infinity();
+    for (std::int32_t t : change_.tets) {
+      change_.old_volume6 += volume6_of(mesh_.tets[std::size_t(t)]);
+      change_.least_shape2 = std::min(change_.least_shape2, shape2_of(mesh_.tets[std::size_t(t)]));
+    }
   }
 
   /// Whether the tets are sound, and nothing that is concerned is farther off than the limit.
   bool suits(const Aim &aim, double limit) {
+    const double least = flattest_part * flattest_part * change_.least_shape2;
     const auto sound = [&](const Tet &t) {
-      const auto p = [&](std::size_t k) { return mesh_.points[std::size_t(t[k])]; };
-      return is_sound(p(0), p(1), p(2), p(3), least_shape);
+      return volume6_of(t) > 0 && shape2_of(t) > std::max(least, least_shape * least_shape);
     };
     const auto near = [&](const Triangle &t) {
       const Vec3 middle = (corner(t, 0) + corner(t, 1) + corner(t, 2)) / 3.0;
@@ -350,6 +359,7 @@ class DeviationLowering {
   Job &job_;
   TetMesh &mesh_;
   Array<std::int32_t> &origin_;
+  double least_;
   NearestTriangle to_original_;
   Array<double> of_sample_, of_vertex_;      // distances, of the original's vertices and the mesh's
   Array<std::int32_t> first_, next_, home_;  // lists of the original's vertices, by nearest triangle

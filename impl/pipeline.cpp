@@ -97,7 +97,7 @@ class Pipeline {
     for (double ratio = ratio_of(options_);; ratio *= 2) {
       const bool collapsed = collapses_edges(options_, report_) && collapse_edges();
       if (!collapsed) remesh_to_target(worker);
-      if (refine(!collapsed || options_.effort == effort_accurate) == 0) return;
+      if (refine(collapsed) == 0) return;
       const double sigma = budget_.sigma;
       if (sigma >= 1) fail_bound();
       budget_ = budget_of(std::min(2 * ratio, 1.0), report_);
@@ -167,22 +167,22 @@ class Pipeline {
   }
 
   /// How many original vertices are beyond the bound.
-  std::int64_t refine(bool follows_field) {
+  std::int64_t refine(bool collapsed) {
     const StageTimer timer(Stage::values, job_, report_);
     const double range = original_.range, diagonal = original_.box.diagonal();
     const Array<std::uint8_t> kept = flags_of_result();
     const double bound = options_.max_error * range, deviation = options_.max_deviation * diagonal;
-    const int rounds = rounds_of(options_, report_);
-    const RefineOptions options{budget_.tets, report_.steiner_points, follows_field, rounds, bound,
-                                kept,         boundary_.triangles,    deviation};
+    const bool follows_field = !collapsed || options_.effort == effort_accurate;
+    const std::int64_t before = tets_before_lowering(budget_, options_, collapsed, mesh_.tets.size());
+    const RefineOptions options{
+        budget_.tets, before, report_.steiner_points, follows_field, rounds_of(options_, report_),
+        bound,        kept,   boundary_.triangles,    deviation};
     const RefineReport refined = tetlod::refine(original_.view, options, job_, mesh_);
     report_.max_deviation = std::max(report_.max_deviation, refined.deviation / diagonal);
     report_.samples -= refined.removed_samples;
     report_.steiner_points -= refined.removed_steiner;
     report_.inserted_points = refined.inserted - refined.inserted_on_boundary;
-    report_.boundary_points_out += refined.inserted_on_boundary;
-    report_.boundary_edges_out += 3 * refined.inserted_on_boundary;
-    report_.boundary_triangles_out += 2 * refined.inserted_on_boundary;
+    describe_insertions(refined.inserted_on_boundary, report_);
     report_.max_error = range > 0 ? refined.max_error / range : 0;  // what is constant stays so
     return refined.beyond_bound;
   }

@@ -50,12 +50,12 @@ class Refinement {
     const ProbeOptions enough = projected(enough_probes(double(options_.tets), options_.rounds));
     place_probes(original_, enough, job_, mesh_);
     if (options_.follows_field) follow_field();
-    insert(before_lowering() - count());
+    insert(options_.before_lowering - count());
     fit_values(fit_steps, job_, mesh_);
     if (enough.most_vertices < double(original_.points.size())) place_probes(original_, every_vertex(), job_, mesh_);
     if (options_.bound > 0)
       report_.beyond_bound = hold_bound(options_.bound, job_, mesh_);
-    else if (before_lowering() < options_.tets)
+    else if (options_.before_lowering < options_.tets)
       lower_largest(options_.tets, job_, mesh_);
     report_.max_error = largest_error(mesh_, job_).value;
     count_points();
@@ -86,7 +86,7 @@ class Refinement {
       const bool last = round + 1 == options_.rounds;
       if (!last) remove();
       const std::size_t first = mesh_.points.size();
-      insert((before_lowering() - count()) / (last ? 1 : 2));
+      insert((options_.before_lowering - count()) / (last ? 1 : 2));
       move(first);
       flip();
       move(0);
@@ -98,14 +98,14 @@ class Refinement {
   void flip() {
     double price = price_of_tet * mean_error();
     flip_tets(price, job_, mesh_);
-    for (int i = 0; i < dearer_sweeps && count() > before_lowering(); i++) flip_tets(price *= dearer, job_, mesh_);
+    for (int i = 0; i < dearer_sweeps && count() > options_.before_lowering; i++)
+      flip_tets(price *= dearer, job_, mesh_);
   }
   void remove() { remove_vertices(price_of_vertex * mean_error(), job_, mesh_); }
   void insert(std::int64_t tets) {
     if (tets > 0) insert_vertices(tets, job_, mesh_);
   }
 
-  std::int64_t before_lowering() const { return tetlod::before_lowering(options_.tets, options_.bound); }
   std::int64_t count() const { return std::int64_t(mesh_.count()); }
   double mean_error() const { return mesh_.total_error() / double(mesh_.count()); }
 

@@ -7,6 +7,7 @@ namespace tetlod {
 
 struct RefineOptions {
   std::int64_t tets = 0;          ///< how many there shall be
+  std::int64_t before_lowering;   ///< how many of them, before the largest errors get the rest
   std::int64_t steiner = 0;       ///< how many of the points, the last ones, are Steiner points
   bool follows_field = true;      ///< vertices move and faces flip; else values are fitted alone
   int rounds = 0;                 ///< that also remove and insert vertices, after one pass that moves and flips
