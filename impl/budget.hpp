@@ -115,11 +115,12 @@ inline CollapseSizes collapse_sizes(const Budget &budget, const Options &options
   return lowers ? CollapseSizes{most - most / part, most} : CollapseSizes{most, 0};
 }
 
-/// How many tets there shall be before the largest errors get the rest; what the boundary got stays.
+/// How many tets there shall be before the largest errors get the rest; with what the boundary has left.
 inline std::int64_t tets_before_lowering(const Budget &budget, const Options &options, bool collapsed,
                                          std::size_t tets) {
   const std::int64_t before = before_lowering(budget.tets, options.max_error);
-  return collapsed ? std::min(std::int64_t(tets), before) : before;
+  const bool lowered = collapsed && collapse_sizes(budget, options).lowered > 0;
+  return lowered ? std::min(std::int64_t(tets), before) : before;
 }
 
 }  // namespace tetlod
