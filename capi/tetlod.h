@@ -34,7 +34,8 @@
  *   Host       The library never prints, exits, aborts, installs signal handlers, or touches rand(), the locale, the
  *              floating-point state or the environment, and no C++ exception leaves it. TetGen runs in a process of
  *              its own, tetlod-remesh; whatever happens to it is a status here.
- *   Results    The same input, options and seed give the same bytes, whatever the number of threads.
+ *   Results    The same input, options and seed give the same bytes, whatever the number of threads (with
+ *              TETLOD_OPT_WARM_START, after the same runs).
  */
 #ifndef TETLOD_H
 #define TETLOD_H
@@ -172,7 +173,8 @@ typedef struct tetlod_run_report {
                            were, else 0 */
   int64_t reused_triangles; /* boundary_triangles_out where its decimation was, else 0 */
   int64_t reused_samples;   /* samples known to be inside or outside, near or far */
-  int64_t reused_collapses; /* of the solid's edges (TETLOD_OPT_EFFORT), by a run or a round of another size */
+  int64_t
+      reused_collapses; /* of the solid's edges (TETLOD_OPT_EFFORT), by a run or a round of another size, or values */
 } tetlod_run_report;
 
 /* The field error of the last result, as the paper estimates it [4]. Errors are |result - original|, relative to the
@@ -331,9 +333,8 @@ enum {
                                    result, at vertices and middles of edges and triangles of both, as a fraction of the
                                    diagonal; more of the boundary is kept than asked for. Of triangles that are divided
                                    for the field's sake, at the new vertices alone. 0, the default: none */
-  TETLOD_OPT_WARM_START = 24 /* real, "warm-start": collapses of edges may begin at what those of an earlier run with
-                                other values left, if, by estimate, the RMS error grows by no more than this part.
-                                The bytes then depend on that run, too. 0, the default: they do not */
+  TETLOD_OPT_WARM_START = 24 /* real, "warm-start": edges collapse from what an earlier run with other values left, if
+                                   by estimate the RMS error grows by no more than this part; 0, the default: not */
 };
 enum { TETLOD_EFFORT_FAST = 1, TETLOD_EFFORT_ACCURATE = 2 };
 enum { TETLOD_POLICY_ERROR = 0, TETLOD_POLICY_REPAIR = 1 };

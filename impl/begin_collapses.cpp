@@ -23,46 +23,47 @@ SolidMesh<m> mesh_of(const MeshView &original, const Boundary &boundary, const S
   return mesh;
 }
 
-/// What a state that earlier values left may have of the usual squared error, so that the root of it all is larger by
-/// no more than the part that is asked for.
-double part_of_error(double warm_start) { return (1 + warm_start) * (1 + warm_start) - 1; }
-
 /// The coarsest of the states that earlier values left that is fine enough for the size and for the new values.
 template <std::size_t m>
-std::optional<SolidRemains<m>> renewed_state(const MeshView &original, const Boundary &boundary,
-                                             const FieldsAsLengths<m> &fields, const SolidOptions &options,
-                                             SolidHistory &history, Job &job) {
+std::optional<CollapseStart<m>> warm_start(const MeshView &original, const Boundary &boundary,
+                                           const FieldsAsLengths<m> &fields, const SolidOptions &options,
+                                           SolidHistory &history, Job &job) {
   constexpr double finer = 1.5;      // than the size: the last collapses see the new values
-  constexpr double far_beyond = 16;  // the limit: a finer state will not do, either
+  constexpr double far_beyond = 16;  // what is allowed: a finer state will not do, either
   const std::int64_t tets = std::max(options.tets, options.enough);
-  const double limit = part_of_error(options.warm_start) * history.usual_error(tets);
+  const double usual_cost = history.usual_cost(tets);
   const Array<SolidState<m>> &states = history.states<m>(job.memory);
   for (std::size_t i = states.size(); i-- > 0;) {
     const SolidState<m> &state = states[i];
     if (!state.progress.follows() || double(state.remains.tets.size()) < finer * double(tets)) continue;
     SolidRemains<m> remains(state.remains, job.memory);
     const double error = renew_quadrics(original, boundary, fields, state.progress.home, job, remains);
-    if (error <= limit) return remains;
-    if (!(error <= far_beyond * limit)) break;
+    if (!inherits_too_much(error, options.warm_start, usual_cost)) {
+      SolidMesh<m> solid(std::move(remains), job);
+      SolidProgress progress(solid.points.size(), solid.tets.size(), job.memory);
+      return CollapseStart<m>{std::move(solid), std::move(progress), false, error};
+    }
+    if (inherits_too_much(error, options.warm_start, far_beyond * usual_cost)) break;
   }
   return std::nullopt;
 }
 
 }  // namespace
 
+/// The root of it all is to be larger by no more than the part that is asked for. What collapses leave is less than
+/// what they cost, by experience.
+bool inherits_too_much(double inherited, double warm_start, double cost) {
+  constexpr double left_of_cost = 0.75;
+  const double allowed = ((1 + warm_start) * (1 + warm_start) - 1) * left_of_cost * cost;
+  return inherited != 0 && !(inherited <= allowed);
+}
+
 template <std::size_t m>
 CollapseStart<m> begin_collapses(const MeshView &original, const Boundary &boundary, const FieldsAsLengths<m> &fields,
                                  const SolidOptions &options, SolidHistory &history, Job &job) {
-  const auto first_progress = [&](const SolidMesh<m> &solid) {
-    return SolidProgress(solid.points.size(), solid.tets.size(), job.memory);
-  };
   const bool keeps_states = options.max_deviation <= 0;
   if (keeps_states && history.is_earlier()) {
-    if (auto remains = renewed_state(original, boundary, fields, options, history, job)) {
-      SolidMesh<m> solid(std::move(*remains), job);
-      SolidProgress progress = first_progress(solid);
-      return {std::move(solid), std::move(progress), false};
-    }
+    if (auto start = warm_start(original, boundary, fields, options, history, job)) return std::move(*start);
     history.forget_earlier(job.memory);
   }
   const SolidState<m> *const state =
@@ -71,8 +72,8 @@ CollapseStart<m> begin_collapses(const MeshView &original, const Boundary &bound
     return {SolidMesh<m>(SolidRemains<m>(state->remains, job.memory), job), SolidProgress(state->progress, job.memory),
             true};
   SolidMesh<m> solid = mesh_of<m>(original, boundary, options, fields.scales, job);
-  SolidProgress progress = first_progress(solid);
-  if (keeps_states && options.warm_start > 0) progress.follow(solid.origin, original.points.size(), job.memory);
+  SolidProgress progress(solid.points.size(), solid.tets.size(), job.memory);
+  if (keeps_states && options.warm_start > 0) progress.follow(solid.origin, original.points.size());
   return {std::move(solid), std::move(progress), keeps_states};
 }
 

@@ -1,12 +1,12 @@
 #include "decimate_solid.hpp"
 
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <optional>
 
 #include "begin_collapses.hpp"
 #include "deviation.hpp"
-#include "renew_quadrics.hpp"
 #include "solid_blocks.hpp"
 #include "solid_costs.hpp"
 #include "solid_rules.hpp"
@@ -101,13 +101,8 @@ class SolidDecimator {
     append_left(mesh_.triangles, number, out.boundary);
   }
 
-  /// The squared error of what is left; the mesh is of no use after that.
-  double take_error(const Boundary &boundary) {
-    const Array<std::int32_t> number = numbers_of(left_, mesh_.points.size(), job_.memory);
-    SolidRemains<m> remains = mesh_.take_remains(left_, number, job_);
-    progress_.close_gaps(left_, number);
-    return renew_quadrics(original_, boundary, fields_, progress_.home, job_, remains);
-  }
+  std::int64_t count() const { return count_; }
+  double cost() const { return progress_.cost; }  ///< of the collapses
 
  private:
   /// Rounds of a vertex none of whose edges is admissible, and of one that is looked at again after the round.
@@ -121,6 +116,7 @@ class SolidDecimator {
     Array<std::int32_t> items, changed;
     SolidCollapse<m> collapse;
     std::int64_t most = 0, gone = 0;  ///< tets
+    double cost = 0;
   };
 
   Values<m> values_of(std::int32_t v) const {
@@ -193,10 +189,12 @@ class SolidDecimator {
       if (!work.items.empty())  // with fewer tets to lose, the block would have stopped before
         progress_.allow(double(before) - double(work.gone + 1) * double(items) / double(work.items.size()));
       count_ -= work.gone;
+      progress_.cost += work.cost;
       changed.insert(changed.end(), work.changed.begin(), work.changed.end());
       work.items.clear();
       work.changed.clear();
       work.gone = 0;
+      work.cost = 0;
     }
     progress_.most_waited = blocks_.count() > 1 && changed.size() * 8 < items;
   }
@@ -221,13 +219,18 @@ class SolidDecimator {
     blocks_ = SolidBlocks(left_.size(), job_.memory);
   }
 
-  /// Unless it is of this target alone, kept already, or would take memory that the run does not need without it.
+  /// Unless it is of this target alone, kept already, or would take memory that the run does not need without it. Where
+  /// new values may begin must not depend on the peak, which depends on the threads.
   void keep_state(const SolidRemains<m> &remains) {
     const bool is_kept = !states_->empty() && states_->back().remains.tets.size() <= remains.tets.size();
     if (is_kept || progress_.largest_target < options_.tets) return;
-    const std::size_t of_lists = remains.bytes() / 4 * 5;  // about, when they are made again, and grow
-    if (job_.memory.in_use() + remains.bytes() + progress_.bytes() + of_lists > job_.memory.peak()) return;
+    if (progress_.follows() ? remains.tets.size() > remains.measures.tets / 2 : raises_peak(remains)) return;
     states_->push_back({SolidRemains<m>(remains, job_.memory), SolidProgress(progress_, job_.memory)});
+  }
+
+  bool raises_peak(const SolidRemains<m> &remains) const {
+    const std::size_t of_lists = remains.bytes() / 4 * 5;  // about, when they are made again, and grow
+    return job_.memory.in_use() + remains.bytes() + progress_.bytes() + of_lists > job_.memory.peak();
   }
 
   // ---- A collapse
@@ -318,6 +321,7 @@ class SolidDecimator {
     mesh_.collapse(collapse.edge, collapse.place, room);
     if (progress_.follows()) progress_.into[std::size_t(collapse.edge.gone)] = v;
     work.gone += std::int64_t(collapse.edge.edge_tets.size());
+    work.cost += cheapest(collapse.found_at).cost;
     progress_.moved[std::size_t(v)] = progress_.round;
     work.changed.push_back(v);
     // What was not admissible around it may be so now.
@@ -352,15 +356,24 @@ std::int64_t decimate_solid(const MeshView &original, const Boundary &boundary, 
                             Array<std::int32_t> &origin) {
   return with_fields(original.fields, [&](auto m) {
     const FieldsAsLengths<m> fields(original, box_of(surface.points).diagonal());
-    CollapseStart<m> start = begin_collapses<m>(original, boundary, fields, options, history, job);
-    const std::size_t saved = start.solid.measures.vertices - start.solid.points.size();
-    const bool warms = start.progress.follows() && !history.knows_usual_error();
-    SolidDecimator<m> decimator(original, surface, options, fields, std::move(start),
-                                start.keeps_states ? &history.states<m>(job.memory) : nullptr, job);
-    decimator.run();
-    decimator.write(mesh, origin);
-    if (warms) history.set_usual_error(decimator.take_error(boundary), std::int64_t(mesh.tets.size()));
-    return std::int64_t(saved);
+    for (;;) {
+      CollapseStart<m> start = begin_collapses<m>(original, boundary, fields, options, history, job);
+      const std::size_t saved = start.solid.measures.vertices - start.solid.points.size();
+      const bool may_warm = start.progress.follows();
+      const double inherited = start.inherited, tets = double(start.solid.tets.size());
+      SolidDecimator<m> decimator(original, surface, options, fields, std::move(start),
+                                  start.keeps_states ? &history.states<m>(job.memory) : nullptr, job);
+      decimator.run();
+      // What collapses from the original on would cost: what they leave is of second order.
+      const double whole = decimator.cost() / (1 - std::pow(double(decimator.count()) / tets, second_order));
+      if (inherits_too_much(inherited, options.warm_start, whole)) {
+        history.forget_earlier(job.memory);  // whose usual cost these values are far from
+        continue;
+      }
+      decimator.write(mesh, origin);
+      if (may_warm && !history.knows_usual_cost()) history.set_usual_cost(decimator.cost(), decimator.count());
+      return std::int64_t(saved);
+    }
   });
 }
 

@@ -88,10 +88,7 @@ class DeviationLowering {
     most_ = std::size_t(most);
     for (int sweep = 0; sweep < sweeps && serve_worst() > 0; sweep++) {
     }
-    const auto largest = [](const Array<double> &distances) {
-      return *std::max_element(distances.begin(), distances.end());
-    };
-    return std::max(largest(of_sample_), largest(of_vertex_));
+    return std::max(largest_of_samples(), *std::max_element(of_vertex_.begin(), of_vertex_.end()));
   }
 
  private:
@@ -119,6 +116,23 @@ class DeviationLowering {
     });
     for (std::size_t i = 0; i < vertices(); i++)
       if (home_[i] >= 0) next_[i] = std::exchange(first_[std::size_t(home_[i])], std::int32_t(i));
+  }
+
+  /// Those that stayed where they were may be nearer to what has changed: the largest are looked at again.
+  double largest_of_samples() {
+    const auto is_less = [](const Apart &a, const Apart &b) { return b < a; };
+    const NearestTriangle to_mesh(mesh_.points, mesh_.boundary, leaf, job_);
+    Array<Apart> largest(&job_.memory);
+    for (std::size_t i = 0; i < of_sample_.size(); i++) largest.push_back({of_sample_[i], i});
+    std::make_heap(largest.begin(), largest.end(), is_less);
+    for (;;) {
+      std::pop_heap(largest.begin(), largest.end(), is_less);
+      Apart &last = largest.back();
+      const double distance = to_mesh.nearest(original_.points[last.at]).distance;
+      if (!(distance < last.distance)) return last.distance;
+      last.distance = distance;
+      std::push_heap(largest.begin(), largest.end(), is_less);
+    }
   }
 
   /// Those that are original vertices are not off.
@@ -157,7 +171,6 @@ class DeviationLowering {
     touched_.assign(mesh_.points.size(), 0);
     std::int64_t served = 0;
     for (const Apart &apart : find_worst()) served += serve(apart);
-    job_.poll(1);
     return served;
   }
 
@@ -294,6 +307,7 @@ class DeviationLowering {
 
   /// Whether the tets are sound, and nothing that is concerned is farther off than the limit.
   bool suits(const Aim &aim, double limit) {
+    job_.poll(1);
     const double least = flattest_part * flattest_part * change_.least_shape2;
     const auto sound = [&](const Tet &t) {
       return volume6_of(t) > 0 && shape2_of(t) > std::max(least, least_shape * least_shape);

@@ -1,12 +1,11 @@
 // What runs of one mesh have in common, kept from each for the next. A rule for each part says what it depends on:
 //   original, boundary, surface, topology   points, tets, flags, merge-tolerance, policies (the stamp), while all
-//   values
-//                                           are finite
+//                                           values are finite
 //   the decimation                          that, lambda, clean-edges, max-deviation, and the field if its cost sees it
-//   the history of collapses                the original, its values and how they count
+//   the history of collapses                the original, its values and how they count; for a warm start, others
 //   verdicts                                the decimation and how far it went, min-distance, boundary-leaf
 // What it depends on is compared by fingerprints, so that arrays may be changed in place, or submitted anew unchanged.
-// Whatever is taken over has the bytes that a run without it would make.
+// Whatever is taken over has the bytes that a run without it would make, but for a warm start.
 #pragma once
 #include <cstdint>
 

@@ -6,15 +6,15 @@
 namespace tetlod {
 
 struct RefineOptions {
-  std::int64_t tets = 0;          ///< how many there shall be
-  std::int64_t before_lowering;   ///< how many of them, before the largest errors get the rest
-  std::int64_t steiner = 0;       ///< how many of the points, the last ones, are Steiner points
-  bool follows_field = true;      ///< vertices move and faces flip; else values are fitted alone
-  int rounds = 0;                 ///< that also remove and insert vertices, after one pass that moves and flips
-  double bound = 0;               ///< of the error at every original vertex, absolute; 0: none
-  Span<const std::uint8_t> kept;  ///< points that keep place and value, and the faces among them; empty: none
-  Span<const Triangle> boundary;  ///< of the original
-  double max_deviation = 0;       ///< of a new vertex of the boundary from the original's; 0: no limit
+  std::int64_t tets = 0;             ///< how many there shall be
+  std::int64_t before_lowering = 0;  ///< how many of them, before the largest errors get the rest
+  std::int64_t steiner = 0;          ///< how many of the points, the last ones, are Steiner points
+  bool follows_field = true;         ///< vertices move and faces flip; else values are fitted alone
+  int rounds = 0;                    ///< that also remove and insert vertices, after one pass that moves and flips
+  double bound = 0;                  ///< of the error at every original vertex, absolute; 0: none
+  Span<const std::uint8_t> kept;     ///< points that keep place and value, and the faces among them; empty: none
+  Span<const Triangle> boundary;     ///< of the original
+  double max_deviation = 0;          ///< of a new vertex of the boundary from the original's; 0: no limit
 };
 
 /// Of so many tets, those that there shall be before the largest errors get the rest: for a hundredth of the tets the

@@ -21,7 +21,7 @@ SolidComplex::SolidComplex(SolidInOrder &&solid, Job &job)
   for (const Triangle &t : triangles)
     for (std::int32_t v : t) ranks[std::size_t(v)] = Rank::boundary;
   const double flat = flat_beside_usual * flat_beside_usual * usual_shape2(job.memory);
-  measures = {std::min(least_shape * least_shape, flat), volume(), points.size(), 0};
+  measures = {std::min(least_shape * least_shape, flat), volume(), points.size(), tets.size(), 0};
 }
 
 SolidComplex::SolidComplex(Array<Vec3> &&points_of, Array<Rank> &&ranks_of, Array<Tet> &&tets_of_it,

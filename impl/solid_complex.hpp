@@ -65,7 +65,7 @@ struct CollapseRoom {
 struct SolidMeasures {
   double least_shape2 = 0;  ///< square of the shape of a tet, below which it is flat
   double volume = 0;
-  std::size_t vertices = 0;
+  std::size_t vertices = 0, tets = 0;
   double weight_of_planes = 0;  ///< in the quadrics
 };
 

@@ -9,7 +9,9 @@ SolidProgress::SolidProgress(std::size_t vertices, std::size_t tets, Memory &mem
     : next_closing(std::int64_t(tets) / 4 * 3),  // soon, as the first rounds are the longest
       cheapest(vertices, CheapestEdge(), &memory),
       moved(vertices, -1, &memory),
-      changed(vertices, 0, &memory) {
+      changed(vertices, 0, &memory),
+      home(&memory),
+      into(&memory) {
   std::iota(changed.begin(), changed.end(), 0);
 }
 
@@ -18,16 +20,17 @@ SolidProgress::SolidProgress(const SolidProgress &of, Memory &memory)
       most_waited(of.most_waited),
       largest_target(of.largest_target),
       next_closing(of.next_closing),
+      cost(of.cost),
       cheapest(of.cheapest, &memory),
       moved(of.moved, &memory),
       changed(of.changed, &memory),
       home(of.home, &memory),
       into(of.into, &memory) {}
 
-void SolidProgress::follow(Span<const std::int32_t> origin, std::size_t originals, Memory &memory) {
+void SolidProgress::follow(Span<const std::int32_t> origin, std::size_t originals) {
   home.assign(originals, -1);
   for (std::size_t v = 0; v < origin.size(); v++) home[std::size_t(origin[v])] = std::int32_t(v);
-  into = Array<std::int32_t>(origin.size(), 0, &memory);
+  into.resize(origin.size());
   std::iota(into.begin(), into.end(), 0);
 }
 
@@ -61,9 +64,8 @@ void SolidHistory::forget_earlier(Memory &memory) {
   values_ = now_ = now;
 }
 
-/// An error of linear interpolation is of second order.
-double SolidHistory::usual_error(std::int64_t tets) const {
-  return knows_usual_error() ? usual_error_ * std::pow(double(tets_of_error_) / double(tets), 4.0 / 3) : 0;
+double SolidHistory::usual_cost(std::int64_t tets) const {
+  return knows_usual_cost() ? usual_cost_ * std::pow(double(tets_of_cost_) / double(tets), second_order) : 0;
 }
 
 }  // namespace tetlod

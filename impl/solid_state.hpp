@@ -8,6 +8,9 @@
 
 namespace tetlod {
 
+/// How the squared error of linear interpolation falls with the number of tets: as its inverse to this power.
+constexpr double second_order = 4.0 / 3;
+
 /// No admissible edge of a vertex costs less, as far as was known in that round.
 struct CheapestEdge {
   double cost = std::numeric_limits<double>::infinity(), t = 0;
@@ -26,7 +29,7 @@ struct SolidProgress {
            (changed.size() + home.size() + into.size()) * sizeof(std::int32_t);
   }
   /// From here on `home` is known. origin: of each vertex, the original one.
-  void follow(Span<const std::int32_t> origin, std::size_t originals, Memory &memory);
+  void follow(Span<const std::int32_t> origin, std::size_t originals);
   bool follows() const { return !home.empty(); }
   /// Of the vertices that are left alone. number: numbers_of(left).
   void close_gaps(Span<const std::int32_t> left, Span<const std::int32_t> number);
@@ -38,6 +41,7 @@ struct SolidProgress {
   bool most_waited = false;                                                ///< in the round before
   std::int64_t largest_target = std::numeric_limits<std::int64_t>::max();  ///< up to it the rounds so far are the same
   std::int64_t next_closing = 0;                                           ///< with fewer tets, gaps are closed
+  double cost = 0;                                                         ///< of all collapses so far
   Array<CheapestEdge> cheapest;                                            ///< of each vertex
   Array<int> moved;             ///< the round in which each vertex moved last
   Array<std::int32_t> changed;  ///< whose edges cost something else than they did
@@ -62,12 +66,12 @@ class SolidHistory {
   void forget_earlier(Memory &memory);
   void forget(Memory &memory) { *this = SolidHistory(memory); }
 
-  /// The squared error that collapses to so many tets leave, about, as it was for the values of the states.
-  double usual_error(std::int64_t tets) const;
-  bool knows_usual_error() const { return tets_of_error_ > 0; }
-  void set_usual_error(double error, std::int64_t tets) {
-    usual_error_ = error;
-    tets_of_error_ = tets;
+  /// What collapses to so many tets cost in all, about, as they did for the values of the states.
+  double usual_cost(std::int64_t tets) const;
+  bool knows_usual_cost() const { return tets_of_cost_ > 0; }
+  void set_usual_cost(double cost, std::int64_t tets) {
+    usual_cost_ = cost;
+    tets_of_cost_ = tets;
   }
 
   /// The coarsest of the states that the rounds to a target go through, of so many tets at least; null: none is kept.
@@ -88,8 +92,8 @@ class SolidHistory {
 
  private:
   Fingerprint values_, now_;
-  double usual_error_ = 0;
-  std::int64_t tets_of_error_ = 0;
+  double usual_cost_ = 0;
+  std::int64_t tets_of_cost_ = 0;
   std::variant<Array<SolidState<1>>, Array<SolidState<2>>, Array<SolidState<3>>, Array<SolidState<4>>> states_;
 };
 

@@ -89,8 +89,10 @@ TEST_F(WarmStart, QuadricsAreThoseOfTheOriginal) {
 }
 
 TEST_F(WarmStart, BeginsWhereASlowFrontLeftTheSolid) {
-  start_with_front(20, 0.6);
-  for (int threads : {1, 2}) {
+  Host one;
+  CoarseSolid with_one_thread(one.memory);
+  for (int threads : {1, 2, 3}) {
+    start_with_front(20, 0.6);
     Host on(threads);
     SolidHistory history(on.memory);
     CoarseSolid first(on.memory);
@@ -102,8 +104,42 @@ TEST_F(WarmStart, BeginsWhereASlowFrontLeftTheSolid) {
       EXPECT_GT(go_on_with(moved, 0.1, on, history, next), std::int64_t(original.points.size() / 2)) << at;
       expect_sound(next);
       EXPECT_LE(std::int64_t(next.mesh.tets.size()), options.tets);
+      if (threads == 1)
+        with_one_thread.mesh = next.mesh;
+      else if (at == 0.603)
+        expect_same(next.mesh, with_one_thread.mesh);
     }
   }
+}
+
+/// What is much to a rough field's error is little to a smooth one's.
+TEST_F(WarmStart, BeginsAnewWhereTheValuesAreMuchSmoother) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> noise(-1, 1);
+  Mesh rough = kuhn_cube(12);
+  set_scalars(rough, [&](const Vec3 &) { return noise(random); });
+  start_with(rough);
+  SolidHistory history(host.memory);
+  CoarseSolid first(host.memory), next(host.memory), alone(host.memory);
+  history.begin(original.view(), true, host.memory);
+  ASSERT_TRUE(decimate(0.1, host, history, first)) << failure;
+  EXPECT_EQ(go_on_with([](const Vec3 &p) { return front(p, 0.6); }, 0.1, host, history, next), 0);
+  ASSERT_TRUE(decimate(0.1, host, alone));
+  expect_same(next.mesh, alone.mesh);
+}
+
+/// Nothing but what the caller's allocator gives.
+TEST_F(WarmStart, TakesNoOtherMemory) {
+  start_with_front(8, 0.6);
+  std::pmr::memory_resource *const usual = std::pmr::set_default_resource(std::pmr::null_memory_resource());
+  {
+    SolidHistory history(host.memory);
+    CoarseSolid first(host.memory), next(host.memory);
+    history.begin(original.view(), true, host.memory);
+    EXPECT_NO_THROW(decimate(0.1, host, history, first));
+    EXPECT_NO_THROW(go_on_with([](const Vec3 &p) { return front(p, 0.601); }, 0.1, host, history, next));
+  }
+  std::pmr::set_default_resource(usual);
 }
 
 TEST_F(WarmStart, BeginsAnewWhereTheValuesAreOthers) {
