@@ -173,8 +173,7 @@ typedef struct tetlod_run_report {
                            were, else 0 */
   int64_t reused_triangles; /* boundary_triangles_out where its decimation was, else 0 */
   int64_t reused_samples;   /* samples known to be inside or outside, near or far */
-  int64_t
-      reused_collapses; /* of the solid's edges (TETLOD_OPT_EFFORT), by a run or a round of another size, or values */
+  int64_t reused_collapses; /* of edges of the solid (TETLOD_OPT_EFFORT), for another size, or other values */
 } tetlod_run_report;
 
 /* The field error of the last result, as the paper estimates it [4]. Errors are |result - original|, relative to the
@@ -334,7 +333,7 @@ enum {
                                    diagonal; more of the boundary is kept than asked for. Of triangles that are divided
                                    for the field's sake, at the new vertices alone. 0, the default: none */
   TETLOD_OPT_WARM_START = 24 /* real, "warm-start": edges collapse from what an earlier run with other values left, if
-                                   by estimate the RMS error grows by no more than this part; 0, the default: not */
+                                by estimate the RMS error grows by no more than this part; 0, the default: not */
 };
 enum { TETLOD_EFFORT_FAST = 1, TETLOD_EFFORT_ACCURATE = 2 };
 enum { TETLOD_POLICY_ERROR = 0, TETLOD_POLICY_REPAIR = 1 };
