@@ -164,13 +164,15 @@ class DeviationLowering {
 
   /// How many could be.
   std::int64_t serve_worst() {
+    const Array<Apart> worst = find_worst();
+    if (worst.empty()) return 0;
     const StarLists tets(Span<const Tet>(mesh_.tets), mesh_.points.size(), job_),
         triangles(Span<const Triangle>(mesh_.boundary), mesh_.points.size(), job_);
     tets_ = &tets;
     triangles_ = &triangles;
     touched_.assign(mesh_.points.size(), 0);
     std::int64_t served = 0;
-    for (const Apart &apart : find_worst()) served += serve(apart);
+    for (const Apart &apart : worst) served += serve(apart);
     return served;
   }
 

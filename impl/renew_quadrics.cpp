@@ -2,8 +2,6 @@
 
 #include <numeric>
 
-#include "tet_frame.hpp"
-
 namespace tetlod {
 
 namespace {
@@ -85,17 +83,11 @@ class QuadricRenewal {
   }
 
   void add_tet(const Tet &tet, const std::size_t homes[4], std::size_t begin, std::size_t end) {
-    Place corner[4];
+    std::array<Place, 4> corner;
     for (std::size_t k = 0; k < 4; k++) corner[k] = original_place(tet[k]);
-    const TetFrame frame(point_of(corner[0]), point_of(corner[1]), point_of(corner[2]), point_of(corner[3]));
-    for (std::size_t i = 0; i < m; i++) {
-      Vec3 g = frame.gradient(corner[0][3 + i], corner[1][3 + i], corner[2][3 + i], corner[3][3 + i]);
-      if (!std::isfinite(g.x + g.y + g.z)) g = Vec3(0);
-      Place upright{-g.x, -g.y, -g.z};
-      upright[3 + i] = 1;
+    for (const Place &normal : upright_normals<m>(corner))
       for (std::size_t k = 0; k < 4; k++)
-        if (homes[k] - begin < end - begin) add_square(homes[k], upright, corner[k], 1);
-    }
+        if (homes[k] - begin < end - begin) add_square(homes[k], normal, corner[k], 1);
   }
 
   void add_planes(std::size_t begin, std::size_t end) {

@@ -1,7 +1,5 @@
 #include "solid_mesh.hpp"
 
-#include "tet_frame.hpp"
-
 namespace tetlod {
 
 namespace {
@@ -59,19 +57,6 @@ SolidRemains<m> SolidMesh<m>::take_remains(Span<const std::int32_t> left, Span<c
   return remains;
 }
 
-/// Of the tet's linear functions; none for a flat one.
-template <std::size_t m>
-typename SolidMesh<m>::Gradients SolidMesh<m>::gradients(const Tet &t) const {
-  const TetFrame frame(point(t[0]), point(t[1]), point(t[2]), point(t[3]));
-  Gradients all;
-  for (std::size_t i = 0; i < m; i++) {
-    const Vec3 g = frame.gradient(vertex(t[0]).lengths[i], vertex(t[1]).lengths[i], vertex(t[2]).lengths[i],
-                                  vertex(t[3]).lengths[i]);
-    all[i] = std::isfinite(g.x + g.y + g.z) ? g : Vec3(0);
-  }
-  return all;
-}
-
 /// What the distance from a plane of the boundary counts as beside the same difference of values. The fewer of the
 /// vertices are on the boundary, the less is gained by moving it; by experience.
 template <std::size_t m>
@@ -99,13 +84,10 @@ void SolidMesh<m>::add_tets(std::size_t begin, std::size_t end, Job &job) {
     if (t % 65536 == 0) job.poll(0);
     const Tet &tet = tets[t];
     if (!(is_among(tet[0]) | is_among(tet[1]) | is_among(tet[2]) | is_among(tet[3]))) continue;
-    const Gradients gradient = gradients(tet);
-    for (std::size_t i = 0; i < m; i++) {
-      Place upright{-gradient[i].x, -gradient[i].y, -gradient[i].z};
-      upright[3 + i] = 1;
+    const auto normals = upright_normals<m>({place(tet[0]), place(tet[1]), place(tet[2]), place(tet[3])});
+    for (const Place &normal : normals)
       for (std::int32_t v : tet)
-        if (is_among(v)) vertices_[std::size_t(v)].quadric.add_square(upright, 1);
-    }
+        if (is_among(v)) vertices_[std::size_t(v)].quadric.add_square(normal, 1);
   }
 }
 

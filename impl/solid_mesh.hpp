@@ -2,6 +2,7 @@
 #pragma once
 #include "local_quadric.hpp"
 #include "solid_complex.hpp"
+#include "tet_frame.hpp"
 
 namespace tetlod {
 
@@ -19,6 +20,20 @@ struct FieldsAsLengths {
   ValueRange<m> range;  ///< of the values that tets have: other points' mean nothing
   Values<m> scales;     ///< length that a unit of each field counts as
 };
+
+/// Of a tet's linear functions, one of each field, in space and the values as lengths: how far a place is from the i-th
+/// one, upright, is its product with the way from a corner. Level where the tet is flat.
+template <std::size_t m>
+std::array<Vector<3 + m>, m> upright_normals(const std::array<Vector<3 + m>, 4> &corner) {
+  const TetFrame frame(point_of(corner[0]), point_of(corner[1]), point_of(corner[2]), point_of(corner[3]));
+  std::array<Vector<3 + m>, m> normals{};
+  for (std::size_t i = 0; i < m; i++) {
+    const Vec3 g = frame.gradient(corner[0][3 + i], corner[1][3 + i], corner[2][3 + i], corner[3][3 + i]);
+    if (std::isfinite(g.x + g.y + g.z)) normals[i] = {-g.x, -g.y, -g.z};
+    normals[i][3 + i] = 1;
+  }
+  return normals;
+}
 
 /// A mesh without what can be found from the rest, and without gaps.
 template <std::size_t m>
@@ -84,8 +99,6 @@ class SolidMesh : public SolidComplex {
   void collapse(const SolidEdge &edge, const Place &to, CollapseRoom &room);
 
  private:
-  using Gradients = std::array<Vec3, m>;
-  Gradients gradients(const Tet &t) const;
   double weight_of_planes() const;
   void find_quadrics(Job &job);
   void add_tets(std::size_t begin, std::size_t end, Job &job);
