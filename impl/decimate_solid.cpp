@@ -275,7 +275,7 @@ class SolidDecimator {
     collapse.found_at = v;
     if (!look_around(mesh_, stays, gone, collapse.edge)) return false;
     collapse.of_boundary = mesh_.on_boundary(gone);
-    return find_place(cheapest.t, collapse) && !breaks_topology(mesh_, collapse.edge);
+    return find_place(cheapest.t, collapse);
   }
 
   /// The best place near the edge, or, where that is none, the best along it.

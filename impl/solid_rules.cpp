@@ -9,102 +9,6 @@ namespace {
 bool has(const Tet &t, std::int32_t v) { return (t[0] == v) | (t[1] == v) | (t[2] == v) | (t[3] == v); }
 bool has(const Triangle &t, std::int32_t v) { return (t[0] == v) | (t[1] == v) | (t[2] == v); }
 
-/// Says of most vertices that they are not among some.
-class Seen {
- public:
-  void add(std::int32_t v) { bits_ |= bit(v); }
-  bool may_have(std::int32_t v) const { return (bits_ & bit(v)) != 0; }
-
- private:
-  static std::uint64_t bit(std::int32_t v) { return std::uint64_t(1) << ((std::uint32_t(v) * 2654435761u) >> 26); }
-  std::uint64_t bits_ = 0;
-};
-
-/// The link of an edge: vertices, and which of them are neighbours in it.
-class Ring {
- public:
-  static constexpr std::size_t most = 32;
-
-  /// False when there are too many.
-  bool add_edge(std::int32_t p, std::int32_t q) {
-    const int i = number_or_new(p), j = number_or_new(q);
-    if (i < 0 || j < 0) return false;
-    neighbours_[i] |= 1u << j;
-    neighbours_[j] |= 1u << i;
-    return true;
-  }
-  /// -1: v is not in the ring.
-  int number(std::int32_t v) const {
-    if (!seen_.may_have(v)) return -1;
-    const auto at = std::find(vertices_.begin(), vertices_.end(), v);
-    return at == vertices_.end() ? -1 : int(at - vertices_.begin());
-  }
-  bool has_edge(int i, int j) const { return (neighbours_[i] >> j) & 1u; }
-
- private:
-  int number_or_new(std::int32_t v) {
-    const int i = number(v);
-    if (i >= 0) return i;
-    seen_.add(v);
-    return vertices_.push(v) ? int(vertices_.size()) - 1 : -1;
-  }
-
-  Few<std::int32_t, most> vertices_;
-  Seen seen_;
-  std::uint32_t neighbours_[most] = {};
-};
-
-bool find_ring(const SolidComplex &mesh, const SolidEdge &edge, Ring &ring) {
-  for (std::int32_t t : edge.edge_tets) {
-    std::int32_t p = -1, q = -1;
-    for (std::int32_t v : mesh.tets[std::size_t(t)])
-      if (v != edge.stays && v != edge.gone) (p < 0 ? p : q) = v;
-    if (!ring.add_edge(p, q)) return false;
-  }
-  return true;
-}
-
-bool share_more_than(const SolidComplex &mesh, const Ring &ring, const SolidEdge &edge) {
-  const Span<const std::int32_t> of_stays = mesh.neighbours.of(edge.stays), of_gone = mesh.neighbours.of(edge.gone);
-  Seen seen;
-  for (std::int32_t v : of_stays) seen.add(v);
-  return std::any_of(of_gone.begin(), of_gone.end(), [&](std::int32_t v) {
-    return seen.may_have(v) && ring.number(v) < 0 && std::find(of_stays.begin(), of_stays.end(), v) != of_stays.end();
-  });
-}
-
-/// Edges between vertices of the ring that the tets of one end have in their link, and the ring has not.
-struct Chords {
-  bool any = false;
-  std::uint32_t of[Ring::most] = {};
-
-  template <class Tets>
-  Chords(const SolidComplex &mesh, const Ring &ring, const Tets &tets) {
-    for (std::int32_t t : tets) {
-      int in_ring[4], size = 0;
-      for (std::int32_t v : mesh.tets[std::size_t(t)])
-        if (const int i = ring.number(v); i >= 0) in_ring[size++] = i;
-      for (int a = 0; a < size; a++)
-        for (int b = 0; b < a; b++)
-          if (!ring.has_edge(in_ring[a], in_ring[b])) add(in_ring[a], in_ring[b]);
-    }
-  }
-  void add(int i, int j) {
-    any = true;
-    of[i] |= 1u << j;
-    of[j] |= 1u << i;
-  }
-};
-
-bool share_chord(const SolidComplex &mesh, const Ring &ring, const SolidEdge &edge) {
-  const Chords of_stays(mesh, ring, edge.stays_tets);
-  if (!of_stays.any) return false;
-  const Chords of_gone(mesh, ring, edge.gone_tets);
-  for (std::size_t i = 0; i < Ring::most; i++)
-    if (of_stays.of[i] & of_gone.of[i]) return true;
-  return false;
-}
-
 /// Whether tet t, with its corner v at another place, would turn over, or be flat and flatter than it is.
 bool is_flattened(const SolidComplex &mesh, const Tet &t, std::int32_t v, const Vec3 &place) {
   const auto &face = tet_face[v == t[0] ? 0 : v == t[1] ? 1 : v == t[2] ? 2 : 3];
@@ -188,11 +92,6 @@ bool look_around(const SolidComplex &mesh, std::int32_t stays, std::int32_t gone
   for (std::int32_t t : mesh.tets_of.of(gone))
     if (mesh.has_tet(t) && !has(mesh.tets[std::size_t(t)], stays) && !edge.gone_tets.push(t)) return false;
   return !edge.edge_tets.empty() && !(edge.stays_tets.empty() && edge.gone_tets.empty());
-}
-
-bool breaks_topology(const SolidComplex &mesh, const SolidEdge &edge) {
-  Ring ring;
-  return !find_ring(mesh, edge, ring) || share_more_than(mesh, ring, edge) || share_chord(mesh, ring, edge);
 }
 
 bool flattens(const SolidComplex &mesh, const SolidEdge &edge, const Vec3 &place) {
