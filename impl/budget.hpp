@@ -19,12 +19,16 @@ inline double ratio_of(const Options &options) { return options.target_ratio > 0
 /// With fewer tets, all that can be done is done soon.
 constexpr double small_mesh = 1e5;
 
-/// A coarse mesh by collapsing edges is more accurate; one from samples is there sooner, where the mesh is large and no
-/// more than about this part of the tets is kept.
+/// A coarse mesh by collapsing edges is more accurate; one from samples is there sooner, where the mesh is large and
+/// little of it is kept, or so few tets that TetGen makes them soon. A bound alone begins with few.
+inline bool samples_sooner(const Options &options, const Report &report) {
+  constexpr double soon_made = 25000, little = 0.05, most = 0.095;
+  const auto tets = double(report.tets_in);
+  return tets >= small_mesh && options.target_ratio < std::clamp(soon_made / tets, little, most);
+}
+
 inline bool collapses_edges(const Options &options, const Report &report) {
-  constexpr double as_soon = 0.095;
-  const bool samples = double(report.tets_in) >= small_mesh && ratio_of(options) < as_soon;
-  return options.clean_edges == 0 && (options.effort == effort_accurate || !samples);
+  return options.clean_edges == 0 && (options.effort == effort_accurate || !samples_sooner(options, report));
 }
 
 /// Rounds of refine(), after the pass that every accurate run has. A small mesh has few vertices to go by, too: it gets
