@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "kd_tree.hpp"
+#include "sort_by_place.hpp"
 #include "surface_distance.hpp"
 
 namespace tetlod {
@@ -253,13 +254,46 @@ void project(Job &job, Array<std::int32_t> &home, AdaptiveMesh<m> &mesh) {
   });
 }
 
+/// Whether those side by side in memory are so in space, of a sample.
+template <std::size_t m>
+bool are_near(Span<const Probe<m>> probes) {
+  constexpr std::size_t enough = 1024;
+  constexpr double near = 0.05;  // of the diagonal; places anywhere are 0.3 apart
+  Box box;
+  double way = 0;
+  std::size_t count = 0;
+  for (std::size_t i = 1; i < probes.size(); i += probes.size() / enough + 1, count++) {
+    way += glm::distance(probes[i - 1].point, probes[i].point);
+    box.add(probes[i].point);
+  }
+  return way <= near * box.diagonal() * double(count);
+}
+
+/// Neighbours in space after each other, so that walks are short.
+template <std::size_t m>
+void append_in_order(Span<const Probe<m>> probes, Job &job, Array<std::int32_t> &order) {
+  const auto first = std::int32_t(order.size());
+  if (are_near(probes)) {
+    order.resize(order.size() + probes.size());
+    std::iota(order.begin() + first, order.end(), first);
+    return;
+  }
+  const auto place = [&](std::size_t i) { return probes[i].point; };
+  for (std::int32_t i : order_by_place(probes.size(), place, job)) order.push_back(first + i);
+}
+
 template <std::size_t m>
 Array<std::int32_t> find_homes(Job &job, const AdaptiveMesh<m> &mesh) {
+  Array<std::int32_t> order(&job.memory), home(mesh.probes.size(), -1, &job.memory);
+  order.reserve(mesh.probes.size());
+  const Span<const Probe<m>> probes(mesh.probes);
+  append_in_order(Span<const Probe<m>>(probes.data(), mesh.vertex_probes), job, order);
+  append_in_order(Span<const Probe<m>>(probes.data() + order.size(), probes.size() - order.size()), job, order);
   const Locator locator(mesh, job);
-  Array<std::int32_t> home(mesh.probes.size(), -1, &job.memory);
   job.parallel.for_blocks(home.size(), block, [&](std::size_t begin, std::size_t end) {
     std::int32_t hint = -1;
-    for (std::size_t i = begin; i < end; i++) {
+    for (std::size_t k = begin; k < end; k++) {
+      const auto i = std::size_t(order[k]);
       home[i] = locator.find(mesh.probes[i].point, hint);
       if (home[i] >= 0) hint = home[i];
     }

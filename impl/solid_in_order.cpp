@@ -25,14 +25,12 @@ Array<std::int32_t> used_vertices(const MeshView &original, const Boundary &boun
 }
 
 void order_vertices(const MeshView &original, Span<const std::int32_t> used, Job &job, SolidInOrder &solid) {
-  Array<Vec3> places(&job.memory);
-  places.reserve(used.size());
-  for (std::int32_t v : used) places.push_back(original.points[std::size_t(v)]);
-  solid.origin = order_by_place(places, job);
+  const auto place = [&](std::size_t i) { return original.points[std::size_t(used[i])]; };
+  solid.origin = order_by_place(used.size(), place, job);
   solid.points.reserve(used.size());
   for (std::int32_t &v : solid.origin) {
-    solid.points.push_back(places[std::size_t(v)]);
     v = used[std::size_t(v)];
+    solid.points.push_back(original.points[std::size_t(v)]);
   }
 }
 

@@ -49,11 +49,12 @@ void sort_by_digit(const Array<Coded> &codes, int shift, Job &job, Array<Coded> 
 
 }  // namespace
 
-Array<std::int32_t> order_by_place(Span<const Vec3> places, Job &job) {
-  const Box box = box_of(places);
-  Array<Coded> codes(places.size(), Coded{}, &job.memory), sorted(places.size(), Coded{}, &job.memory);
-  job.parallel.for_blocks(places.size(), 4096, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; i++) codes[i] = {morton_code(places[i], box), std::int32_t(i)};
+Array<std::int32_t> order_by_place(std::size_t count, const std::function<Vec3(std::size_t)> &place, Job &job) {
+  Box box;
+  for (std::size_t i = 0; i < count; i++) box.add(place(i));
+  Array<Coded> codes(count, Coded{}, &job.memory), sorted(count, Coded{}, &job.memory);
+  job.parallel.for_blocks(count, 4096, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; i++) codes[i] = {morton_code(place(i), box), std::int32_t(i)};
     job.poll(0);
   });
   for (int shift = 0; shift < 3 * axis_bits; shift += digit_bits) {
@@ -67,12 +68,14 @@ Array<std::int32_t> order_by_place(Span<const Vec3> places, Job &job) {
 }
 
 void sort_by_place(Span<const Vec3> points, Array<Tet> &tets, Job &job) {
-  Array<Vec3> centroids(tets.size(), Vec3(0), &job.memory);
-  for (std::size_t t = 0; t < tets.size(); t++)
-    for (std::int32_t v : tets[t]) centroids[t] += 0.25 * points[std::size_t(v)];
+  const auto centroid = [&](std::size_t t) {
+    Vec3 sum(0);
+    for (std::int32_t v : tets[t]) sum += 0.25 * points[std::size_t(v)];
+    return sum;
+  };
   Array<Tet> sorted(&job.memory);
   sorted.reserve(tets.size());
-  for (std::int32_t t : order_by_place(centroids, job)) sorted.push_back(tets[std::size_t(t)]);
+  for (std::int32_t t : order_by_place(tets.size(), centroid, job)) sorted.push_back(tets[std::size_t(t)]);
   tets.swap(sorted);
 }
 
