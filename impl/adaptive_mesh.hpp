@@ -22,6 +22,7 @@ class AdaptiveMesh : public TetComplex {
         values(&memory),
         error(&memory),
         probes(&memory),
+        vertex_of_probe(&memory),
         first_probe(&memory),
         next_probe(&memory) {}
 
@@ -30,6 +31,7 @@ class AdaptiveMesh : public TetComplex {
   Array<double> error;      ///< of each tet: the sum of squares at its probes
   Array<Probe<m>> probes;   ///< first those at original vertices
   std::size_t vertex_probes = 0;
+  Array<std::int32_t> vertex_of_probe;          ///< the original vertex of each of those
   Array<std::int32_t> first_probe, next_probe;  ///< lists of the probes in each tet, ended by -1
 
   /// Finds the neighbours of `tets`, which has no free slot yet; all else of a tet is empty.

@@ -8,18 +8,26 @@ namespace tetlod {
 
 namespace {
 
+/// Of original vertices, flagged: those that are left.
+template <class Visit>
+void for_flagged(Span<const std::uint8_t> flags, Span<const std::int32_t> origin, const Visit &visit) {
+  for (std::size_t v = 0; v < origin.size() && !flags.empty(); v++)
+    if (flags[std::size_t(origin[v])]) visit(v);
+}
+
+void keep(Span<const std::uint8_t> flags, Span<const std::int32_t> origin, Array<Rank> &ranks) {
+  for_flagged(flags, origin, [&](std::size_t v) {
+    ranks[v] = std::max(ranks[v], ranks[v] < Rank::boundary ? Rank::kept_inner : Rank::kept_boundary);
+  });
+}
+
 template <std::size_t m>
 SolidMesh<m> mesh_of(const MeshView &original, const Boundary &boundary, const SolidOptions &options,
                      const Values<m> &scales, Job &job) {
   SolidMesh<m> mesh(put_in_order(original, boundary, job), original.values<m>(), scales, job);
-  for (std::size_t i = 0; i < mesh.points.size(); i++) {
-    const auto flagged = [&](Span<const std::uint8_t> flags) {
-      return !flags.empty() && flags[std::size_t(mesh.origin[i])];
-    };
-    if (flagged(options.kept))
-      mesh.ranks[i] = mesh.on_boundary(std::int32_t(i)) ? Rank::kept_boundary : Rank::kept_inner;
-    if (flagged(options.touching)) mesh.ranks[i] = Rank::touching;
-  }
+  keep(options.kept, mesh.origin, mesh.ranks);
+  keep(options.restored, mesh.origin, mesh.ranks);
+  for_flagged(options.touching, mesh.origin, [&](std::size_t v) { mesh.ranks[v] = Rank::touching; });
   return mesh;
 }
 
@@ -61,7 +69,8 @@ bool inherits_too_much(double inherited, double warm_start, double cost) {
 template <std::size_t m>
 CollapseStart<m> begin_collapses(const MeshView &original, const Boundary &boundary, const FieldsAsLengths<m> &fields,
                                  const SolidOptions &options, SolidHistory &history, Job &job) {
-  const bool keeps_states = options.max_deviation <= 0;
+  if (!options.restored.empty()) history.forget(job.memory);  // of what does not know them, to make room
+  const bool keeps_states = options.max_deviation <= 0 && options.restored.empty();
   if (keeps_states && history.is_earlier()) {
     if (auto start = warm_start(original, boundary, fields, options, history, job)) return std::move(*start);
     history.forget_earlier(job.memory);

@@ -56,7 +56,7 @@ constexpr double tets_a_sample = 6.5, tets_a_boundary_point = 3;
 constexpr double tets_a_point = 4.5, tets_a_part = 5;
 /// Share of the tets that is left to the vertices that refine() inserts.
 constexpr double spare = 0.05;
-constexpr int most_rounds = 6;
+constexpr int most_rounds = 6, most_restorations = 4;
 /// What the field's range counts as beside the diagonal, when the boundary is decimated: more costs geometry, and gains
 /// where a large share of the vertices is on the boundary.
 constexpr double field_weight = 0.3;
@@ -83,6 +83,13 @@ inline Budget budget_of(double ratio, const Report &report) {
 
 /// When TetGen finds no way with a boundary, one with more edges may have it; the last is the original's.
 inline double less_decimated(double sigma) { return std::min(std::max(2 * sigma, 0.1), 1.0); }
+
+/// After one with whose boundary a bound did not hold.
+inline Budget larger_budget(double ratio, double sigma, const Report &report) {
+  Budget budget = budget_of(std::min(ratio, 1.0), report);
+  budget.sigma = less_decimated(sigma);
+  return budget;
+}
 
 /// Where edges collapse, a bound without a size begins where the largest error is about twice the bound, which takes
 /// fewer tets in the end than other beginnings: when collapses cost more than the square of so many times the bound, of

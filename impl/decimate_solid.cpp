@@ -76,7 +76,7 @@ class SolidDecimator {
       drop_gone(left_);
       drop_gone(progress_.changed);
       progress_.round++;
-      if (states_ && count_ < progress_.next_closing && count_ > options_.tets)
+      if (!deviation_ && count_ < progress_.next_closing && count_ > options_.tets)
         close_gaps();
       else
         mesh_.tidy({rooms_.data(), rooms_.size()});
@@ -222,6 +222,7 @@ class SolidDecimator {
   /// Unless it is of this target alone, kept already, or would take memory that the run does not need without it. Where
   /// new values may begin must not depend on the peak, which depends on the threads.
   void keep_state(const SolidRemains<m> &remains) {
+    if (!states_) return;
     const bool is_kept = !states_->empty() && states_->back().remains.tets.size() <= remains.tets.size();
     if (is_kept || progress_.largest_target < options_.tets) return;
     if (progress_.follows() ? remains.tets.size() > remains.measures.tets / 2 : raises_peak(remains)) return;

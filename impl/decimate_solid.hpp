@@ -15,6 +15,7 @@ struct SolidOptions {
   double max_deviation = 0;  ///< as in DecimateOptions
   double warm_start = 0;  ///< begins where earlier values left the solid, if the error gets larger by this part at most
   Span<const std::uint8_t> kept;      ///< original vertices that keep place and value; empty: none
+  Span<const std::uint8_t> restored;  ///< others that do so this time; empty: none
   Span<const std::uint8_t> touching;  ///< original vertices where the solid touches itself; empty: none
 };
 
@@ -23,7 +24,7 @@ struct SolidOptions {
 /// and, to 1 %, its volume. origin: the original vertex that each point still is, or -1. Tets that were flat may be
 /// left, and the boundary may cross itself: to be looked at. history: of this mesh, with these values and flags; it
 /// shortens the way to the same bytes, and gets more states, but with max_deviation; of earlier values, with a warm
-/// start, it shortens the way to others. Returns how many collapses it saved.
+/// start, it shortens the way to others; restored vertices it forgets all for. Returns how many collapses it saved.
 std::int64_t decimate_solid(const MeshView &original, const Boundary &boundary, const Surface &surface,
                             const SolidOptions &options, SolidHistory &history, Job &job, TetMesh &mesh,
                             Array<std::int32_t> &origin);

@@ -67,12 +67,12 @@ struct Measured {
 template <std::size_t m>
 class LargestErrors {
  public:
-  LargestErrors(Job &job, AdaptiveMesh<m> &mesh) : job_(job), mesh_(mesh), around_(&job.memory) {}
+  LargestErrors(Job &job, AdaptiveMesh<m> &mesh) : job_(job), mesh_(mesh), around_(&job.memory), left_(&job.memory) {}
 
-  std::int64_t hold(double bound) {
+  Array<std::int32_t> hold(double bound) {
     for (int sweep = 0;; sweep++) {
       const std::int64_t served = serve_beyond((1 - margin) * bound);
-      if (served == 0) return left_;
+      if (served == 0) return std::move(left_);
       if (sweep < flipping_sweeps) flip_tets(mesh_.total_error() / double(mesh_.count()), job_, mesh_);
     }
   }
@@ -98,17 +98,20 @@ class LargestErrors {
   }
 
  private:
-  /// How many vertices; left_ is how many could not be.
+  /// How many vertices; left_ are those that could not be.
   std::int64_t serve_beyond(double bound) {
     std::int64_t done = 0;
-    left_ = 0;
+    left_.clear();
     const std::size_t count = mesh_.tets.size();
     for (std::size_t t = 0; t < count; t++) {
       if (t % 256 == 0) job_.poll(0.9);
       if (!mesh_.alive(std::int32_t(t))) continue;
       const LargestError worst = largest_in(mesh_, std::int32_t(t));
       if (worst.value <= bound) continue;
-      (serve(std::int32_t(t), mesh_.probes[std::size_t(worst.probe)]) ? done : left_)++;
+      if (serve(std::int32_t(t), mesh_.probes[std::size_t(worst.probe)]))
+        done++;
+      else
+        left_.push_back(mesh_.vertex_of_probe[std::size_t(worst.probe)]);
     }
     return done;
   }
@@ -140,7 +143,7 @@ class LargestErrors {
   Job &job_;
   AdaptiveMesh<m> &mesh_;
   Array<std::int32_t> around_;
-  std::int64_t left_ = 0;
+  Array<std::int32_t> left_;
 };
 
 }  // namespace
@@ -158,7 +161,7 @@ LargestError largest_error(const AdaptiveMesh<m> &mesh, Job &job) {
 }
 
 template <std::size_t m>
-std::int64_t hold_bound(double bound, Job &job, AdaptiveMesh<m> &mesh) {
+Array<std::int32_t> hold_bound(double bound, Job &job, AdaptiveMesh<m> &mesh) {
   return LargestErrors<m>(job, mesh).hold(bound);
 }
 
@@ -171,13 +174,13 @@ template LargestError largest_error(const AdaptiveMesh<1> &, Job &);
 template LargestError largest_error(const AdaptiveMesh<2> &, Job &);
 template LargestError largest_error(const AdaptiveMesh<3> &, Job &);
 template LargestError largest_error(const AdaptiveMesh<4> &, Job &);
-template std::int64_t hold_bound(double, Job &, AdaptiveMesh<1> &);
+template Array<std::int32_t> hold_bound(double, Job &, AdaptiveMesh<1> &);
 template void lower_largest(std::int64_t, Job &, AdaptiveMesh<1> &);
-template std::int64_t hold_bound(double, Job &, AdaptiveMesh<2> &);
+template Array<std::int32_t> hold_bound(double, Job &, AdaptiveMesh<2> &);
 template void lower_largest(std::int64_t, Job &, AdaptiveMesh<2> &);
-template std::int64_t hold_bound(double, Job &, AdaptiveMesh<3> &);
+template Array<std::int32_t> hold_bound(double, Job &, AdaptiveMesh<3> &);
 template void lower_largest(std::int64_t, Job &, AdaptiveMesh<3> &);
-template std::int64_t hold_bound(double, Job &, AdaptiveMesh<4> &);
+template Array<std::int32_t> hold_bound(double, Job &, AdaptiveMesh<4> &);
 template void lower_largest(std::int64_t, Job &, AdaptiveMesh<4> &);
 
 }  // namespace tetlod

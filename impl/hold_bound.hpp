@@ -16,10 +16,10 @@ LargestError largest_error(const AdaptiveMesh<m> &mesh, Job &job);
 
 /// Makes original vertices, with their values, vertices of the mesh where a field is off by more than `bound`,
 /// relative to its range as largest_error(), the worst of each tet first, until there is none; those on the boundary
-/// divide its faces. Returns how many are left where that could not be done: two of them at one point of the boundary,
-/// or a tet would be too flat.
+/// divide its faces. Returns those, of the original's, with which that could not be done: two are at one point of the
+/// boundary, or a tet would be too flat.
 template <std::size_t m>
-std::int64_t hold_bound(double bound, Job &job, AdaptiveMesh<m> &mesh);
+Array<std::int32_t> hold_bound(double bound, Job &job, AdaptiveMesh<m> &mesh);
 
 /// Does the same where the error is the largest of all, until the mesh has about so many tets.
 template <std::size_t m>

@@ -12,6 +12,7 @@
 #include "geometry.hpp"
 #include "hash.hpp"
 #include "interpolate.hpp"
+#include "kept_vertices.hpp"
 #include "place_probes.hpp"
 #include "prepared.hpp"
 #include "refine.hpp"
@@ -92,16 +93,23 @@ class Pipeline {
     while (!simplify_with(budget_.sigma, worker)) budget_.sigma = less_decimated(budget_.sigma);
   }
 
-  /// Where the bound does not hold because the boundary is too coarse, one with more triangles follows.
+  /// Where the bound does not hold because the boundary is at fault, vertices of it are restored; and if that does not
+  /// help, one with more triangles follows.
   void run_to_target(Worker &worker) {
-    for (double ratio = ratio_of(options_);; ratio *= 2) {
+    int restorations = 0;
+    for (double ratio = ratio_of(options_);;) {
+      const Budget budget = budget_;
       const bool collapsed = collapses_edges(options_, report_) && collapse_edges();
       if (!collapsed) remesh_to_target(worker);
-      if (refine(collapsed) == 0) return;
-      const double sigma = budget_.sigma;
-      if (sigma >= 1) fail_bound();
-      budget_ = budget_of(std::min(2 * ratio, 1.0), report_);
-      budget_.sigma = less_decimated(sigma);
+      const Array<std::int32_t> beyond = refine(collapsed);
+      if (beyond.empty()) return;
+      if (collapsed && restorations++ < most_restorations) {
+        kept_.restore(beyond, original_.view.points.size());
+        budget_ = budget;
+        continue;
+      }
+      if (budget_.sigma >= 1) fail_bound();
+      budget_ = larger_budget(ratio *= 2, budget_.sigma, report_);
     }
   }
 
@@ -118,8 +126,8 @@ class Pipeline {
     const StageTimer timer(Stage::decimate, job_, report_);
     const double diagonal = original_.box.diagonal(), deviation = options_.max_deviation * diagonal;
     const CollapseSizes sizes = collapse_sizes(budget_, options_);
-    const SolidOptions options{
-        sizes.tets, budget_.enough, budget_.dearest, deviation, options_.warm_start, original_.flags, {}};
+    const SolidOptions options{sizes.tets,          budget_.enough,  budget_.dearest,  deviation,
+                               options_.warm_start, kept_.by_host(), kept_.restored(), {}};
     CoarseSolid coarse(job_.memory);
     const std::string wrong =
         decimate_solid_and_check(original_.view, boundary_, prepared_.surface(job_), prepared_.topology(job_), options,
@@ -166,25 +174,25 @@ class Pipeline {
     }
   }
 
-  /// How many original vertices are beyond the bound.
-  std::int64_t refine(bool collapsed) {
+  /// The original vertices that are beyond the bound.
+  Array<std::int32_t> refine(bool collapsed) {
     const StageTimer timer(Stage::values, job_, report_);
     const double range = original_.range, diagonal = original_.box.diagonal();
-    const Array<std::uint8_t> kept = flags_of_result();
+    const Array<std::uint8_t> kept = kept_.flags_of(origin_, job_.memory);
     const double bound = options_.max_error * range, deviation = options_.max_deviation * diagonal;
     const bool follows_field = !collapsed || options_.effort == effort_accurate;
     const std::int64_t before = tets_before_lowering(budget_, options_, collapsed, mesh_.tets.size());
     const RefineOptions options{
         budget_.tets, before, report_.steiner_points, follows_field, rounds_of(options_, report_),
         bound,        kept,   boundary_.triangles,    deviation};
-    const RefineReport refined = tetlod::refine(original_.view, options, job_, mesh_);
+    RefineReport refined = tetlod::refine(original_.view, options, job_, mesh_);
     report_.max_deviation = std::max(report_.max_deviation, refined.deviation / diagonal);
     report_.samples -= refined.removed_samples;
     report_.steiner_points -= refined.removed_steiner;
     report_.inserted_points = refined.inserted - refined.inserted_on_boundary;
     describe_insertions(refined.inserted_on_boundary, report_);
     report_.max_error = range > 0 ? refined.max_error / range : 0;  // what is constant stays so
-    return refined.beyond_bound;
+    return std::move(refined.beyond_bound);
   }
 
   /// False: the boundary of this sigma cannot be remeshed, and one that is less decimated is left to try.
@@ -259,15 +267,6 @@ class Pipeline {
     find_topology(surface_.points, surface_.triangles, job_, topology_);
     describe_simplified_boundary(topology_, report_);
     report_.reused_triangles = decimated.reused ? report_.boundary_triangles_out : 0;
-  }
-
-  Array<std::uint8_t> flags_of_result() const {
-    Array<std::uint8_t> flags(&job_.memory);
-    if (original_.flags.empty()) return flags;
-    flags.assign(origin_.size(), 0);
-    for (std::size_t i = 0; i < flags.size(); i++)
-      if (origin_[i] >= 0) flags[i] = original_.flags[std::size_t(origin_[i])];
-    return flags;
   }
 
   /// Of a point of the remeshed mesh; -1 where decimation or TetGen placed it.
@@ -368,6 +367,7 @@ class Pipeline {
   Array<std::int32_t> selected_{&job_.memory};  // by sampling
   Array<std::int32_t> samples_{&job_.memory};   // after culling
   RemeshResult remeshed_{job_.memory};
+  KeptVertices kept_{original_.flags, job_.memory};
   Array<std::int32_t> origin_{&job_.memory};  // of each point of mesh_, the original vertex that it is, or -1
 };
 

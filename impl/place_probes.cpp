@@ -51,8 +51,8 @@ double change_of(const MeshView &mesh, const Tet &t) {
 std::size_t taken(double due) { return std::size_t(0.5 + due); }
 
 template <std::size_t m>
-void add_vertices(const MeshView &original, double most, Memory &memory, Array<Probe<m>> &probes) {
-  Array<std::uint8_t> used(original.points.size(), 0, &memory);
+void add_vertices(const MeshView &original, double most, AdaptiveMesh<m> &mesh) {
+  Array<std::uint8_t> used(original.points.size(), 0, &mesh.memory());
   for (const Tet &t : original.tets)
     for (std::int32_t v : t) used[std::size_t(v)] = 1;
   const double share = std::min(1.0, most / double(std::count(used.begin(), used.end(), 1)));
@@ -61,7 +61,9 @@ void add_vertices(const MeshView &original, double most, Memory &memory, Array<P
   for (std::size_t v = 0; v < used.size(); v++) {
     if (!used[v]) continue;
     due += share;
-    if (taken(due) > probes.size()) probes.push_back({original.points[v], values[v]});
+    if (taken(due) == mesh.probes.size()) continue;
+    mesh.probes.push_back({original.points[v], values[v]});
+    mesh.vertex_of_probe.push_back(std::int32_t(v));
   }
 }
 
@@ -309,12 +311,15 @@ void sort_by_home(std::size_t begin, std::size_t end, AdaptiveMesh<m> &mesh, Arr
   for (std::size_t i = begin; i < end; i++) place[std::size_t(home[i] + 2)]++;
   for (std::size_t t = 0; t + 1 < place.size(); t++) place[t + 1] += place[t];
   Array<Probe<m>> probes(end - begin, &mesh.memory());
-  Array<std::int32_t> homes(end - begin, -1, &mesh.memory());
+  Array<std::int32_t> homes(end - begin, -1, &mesh.memory()), vertices(&mesh.memory());
+  if (begin == 0) vertices.resize(mesh.vertex_of_probe.size());
   for (std::size_t i = begin; i < end; i++) {
     const std::size_t to = place[std::size_t(home[i] + 1)]++;
     probes[to] = mesh.probes[i];
     homes[to] = home[i];
+    if (!vertices.empty()) vertices[to] = mesh.vertex_of_probe[i];
   }
+  if (begin == 0) mesh.vertex_of_probe.swap(vertices);
   std::copy(probes.begin(), probes.end(), mesh.probes.begin() + std::ptrdiff_t(begin));
   std::copy(homes.begin(), homes.end(), home.begin() + std::ptrdiff_t(begin));
 }
@@ -338,8 +343,9 @@ std::size_t expected_probes(const MeshView &original, const ProbeOptions &option
 template <std::size_t m>
 std::int64_t place_probes(const MeshView &original, const ProbeOptions &options, Job &job, AdaptiveMesh<m> &mesh) {
   mesh.probes.clear();
+  mesh.vertex_of_probe.clear();
   mesh.probes.reserve(expected_probes(original, options));
-  add_vertices(original, options.most_vertices, job.memory, mesh.probes);
+  add_vertices(original, options.most_vertices, mesh);
   mesh.vertex_probes = mesh.probes.size();
   if (options.most_inner > 0) add_inner(original, options.most_inner, job, mesh.probes);
   Array<std::int32_t> home = find_homes(job, mesh);

@@ -31,7 +31,7 @@ template <std::size_t m>
 class Refinement {
  public:
   Refinement(const MeshView &original, const RefineOptions &options, Job &job, TetMesh &mesh)
-      : original_(original), options_(options), job_(job), out_(mesh), mesh_(job.memory) {
+      : original_(original), options_(options), job_(job), out_(mesh), mesh_(job.memory), report_(job.memory) {
     mesh_.points = std::move(mesh.points);
     const Values<m> *values = reinterpret_cast<const Values<m> *>(mesh.scalars.data());
     mesh_.values.assign(values, values + mesh_.points.size());
@@ -60,7 +60,7 @@ class Refinement {
     report_.max_error = largest_error(mesh_, job_).value;
     count_points();
     write();
-    return report_;
+    return std::move(report_);
   }
 
  private:

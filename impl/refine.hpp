@@ -26,11 +26,12 @@ inline std::int64_t before_lowering(std::int64_t tets, double bound) {
 }
 
 struct RefineReport {
+  explicit RefineReport(Memory &memory) : beyond_bound(&memory) {}
   std::int64_t inserted = 0, inserted_on_boundary = 0;
   std::int64_t removed_samples = 0, removed_steiner = 0;
-  std::int64_t beyond_bound = 0;  ///< original vertices where the bound could not be held
-  double max_error = 0;           ///< at the original vertices; those outside count with a bound alone
-  double deviation = 0;           ///< of the new vertices of the boundary from the original's
+  Array<std::int32_t> beyond_bound;  ///< original vertices where the bound could not be held
+  double max_error = 0;              ///< at the original vertices; those outside count with a bound alone
+  double deviation = 0;              ///< of the new vertices of the boundary from the original's
 };
 
 /// `mesh` has points, scalars and tets. Fits its values, moves inner vertices, flips faces and edges, removes inner

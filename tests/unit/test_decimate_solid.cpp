@@ -196,6 +196,28 @@ TEST_F(DecimateSolid, RefusesTetsThatOverlap) {
   EXPECT_NE(failure.find("the volume is "), std::string::npos) << failure;
 }
 
+TEST_F(DecimateSolid, KeepsRestoredVerticesAndForgetsTheOthersStates) {
+  Mesh mesh = kuhn_cube(14);
+  set_scalars(mesh, waves);
+  start_with(mesh);
+  SolidHistory history(host.memory);
+  CoarseSolid first(host.memory), coarse(host.memory);
+  ASSERT_TRUE(decimate(0.05, host, history, first));
+  ASSERT_FALSE(history.states<1>(host.memory).empty());
+  std::vector<std::uint8_t> restored(mesh.points.size(), 0);
+  for (std::size_t v = 0; v < mesh.points.size(); v += 97) restored[v] = 1;
+  options.restored = {restored.data(), restored.size()};
+  ASSERT_TRUE(decimate(0.05, host, history, coarse));
+  expect_sound(coarse);
+  EXPECT_TRUE(history.states<1>(host.memory).empty());
+  for (std::size_t v = 0; v < mesh.points.size(); v += 97) {
+    const auto at = std::find(coarse.origin.begin(), coarse.origin.end(), std::int32_t(v)) - coarse.origin.begin();
+    ASSERT_LT(at, std::ptrdiff_t(coarse.origin.size())) << v;
+    EXPECT_EQ(coarse.mesh.points[std::size_t(at)], mesh.points[v]);
+    EXPECT_EQ(coarse.mesh.scalars[std::size_t(at)], mesh.scalars[v]);
+  }
+}
+
 // ---- The link condition
 
 using Simplex = std::set<std::int32_t>;

@@ -72,5 +72,36 @@ TEST_F(TheLargestError, StaysWithoutTetsForIt) {
   EXPECT_EQ(largest(), before);
 }
 
+/// Beyond a corner of the mesh, which has another value: no vertex that is put on the boundary makes both right.
+TEST(HoldBound, NamesTheVerticesThatNeedAnotherBoundary) {
+  Host host;
+  const Mesh cube = kuhn_cube(1);
+  Mesh original = cube;
+  const auto number = [&](const Vec3 &p) {
+    return std::int32_t(std::find(cube.points.begin(), cube.points.end(), p) - cube.points.begin());
+  };
+  const auto beyond = std::int32_t(cube.points.size());
+  original.points.push_back({1.2, 1.2, 1.2});
+  original.scalars.push_back(1);
+  original.tets.push_back({number({1, 1, 1}), number({1, 0, 0}), number({1, 0, 1}), beyond});
+  for (double bound : {0.5, 2.0}) {
+    AdaptiveMesh<1> mesh(host.memory);
+    const TetMesh result = as_result(cube, host.memory);
+    mesh.points.assign(result.points.begin(), result.points.end());
+    mesh.tets.assign(result.tets.begin(), result.tets.end());
+    mesh.values.assign(mesh.points.size(), Values<1>{0});
+    mesh.kept.assign(mesh.points.size(), 0);
+    mesh.kept[std::size_t(number({1, 1, 1}))] = 1;
+    mesh.connect(host.job);
+    ProbeOptions vertices;
+    vertices.most_inner = 0;
+    vertices.project_outside = true;
+    place_probes(original.view(), vertices, host.job, mesh);
+    const Array<std::int32_t> left = hold_bound(bound, host.job, mesh);
+    EXPECT_EQ(std::vector<std::int32_t>(left.begin(), left.end()),
+              bound < 1 ? std::vector<std::int32_t>{beyond} : std::vector<std::int32_t>{});
+  }
+}
+
 }  // namespace
 }  // namespace tetlod

@@ -1,0 +1,39 @@
+// Which original vertices keep place and values: as the host's flags say, and those of the boundary that are restored
+// because a bound does not hold without them.
+#pragma once
+#include "job.hpp"
+#include "mesh.hpp"
+#include "tet_complex.hpp"
+
+namespace tetlod {
+
+class KeptVertices {
+ public:
+  /// flags: of the host, for each of the original's vertices; empty: none.
+  KeptVertices(const Array<std::uint8_t> &flags, Memory &memory) : flags_(flags), restored_(&memory) {}
+
+  void restore(Span<const std::int32_t> some, std::size_t vertices) {
+    restored_.resize(vertices, 0);
+    for (std::int32_t v : some) restored_[std::size_t(v)] = held;
+  }
+  Span<const std::uint8_t> by_host() const { return flags_; }
+  Span<const std::uint8_t> restored() const { return restored_; }
+
+  /// Of points that are these original vertices, or, -1, none.
+  Array<std::uint8_t> flags_of(Span<const std::int32_t> origin, Memory &memory) const {
+    Array<std::uint8_t> flags(&memory);
+    if (flags_.empty() && restored_.empty()) return flags;
+    for (std::int32_t v : origin) flags.push_back(v < 0 ? 0 : at(flags_, v) | at(restored_, v));
+    return flags;
+  }
+
+ private:
+  static std::uint8_t at(Span<const std::uint8_t> flags, std::int32_t v) {
+    return flags.empty() ? 0 : flags[std::size_t(v)];
+  }
+
+  const Array<std::uint8_t> &flags_;
+  Array<std::uint8_t> restored_;
+};
+
+}  // namespace tetlod
