@@ -57,11 +57,12 @@ void add_vertices(const MeshView &original, double most, AdaptiveMesh<m> &mesh) 
     for (std::int32_t v : t) used[std::size_t(v)] = 1;
   const double share = std::min(1.0, most / double(std::count(used.begin(), used.end(), 1)));
   const Span<const Values<m>> values = original.values<m>();
+  mesh.vertex_of_probe.reserve(std::size_t(std::min(most, double(used.size()))));
   double due = 0;
   for (std::size_t v = 0; v < used.size(); v++) {
     if (!used[v]) continue;
     due += share;
-    if (taken(due) == mesh.probes.size()) continue;
+    if (taken(due) <= mesh.probes.size()) continue;
     mesh.probes.push_back({original.points[v], values[v]});
     mesh.vertex_of_probe.push_back(std::int32_t(v));
   }
