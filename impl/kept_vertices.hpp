@@ -15,7 +15,9 @@ class KeptVertices {
   void restore(Span<const std::int32_t> some, std::size_t vertices) {
     restored_.resize(vertices, 0);
     for (std::int32_t v : some) restored_[std::size_t(v)] = held;
+    restorations_++;
   }
+  int restorations() const { return restorations_; }
   Span<const std::uint8_t> by_host() const { return flags_; }
   Span<const std::uint8_t> restored() const { return restored_; }
 
@@ -34,6 +36,7 @@ class KeptVertices {
 
   const Array<std::uint8_t> &flags_;
   Array<std::uint8_t> restored_;
+  int restorations_ = 0;
 };
 
 }  // namespace tetlod

@@ -93,23 +93,23 @@ class Pipeline {
     while (!simplify_with(budget_.sigma, worker)) budget_.sigma = less_decimated(budget_.sigma);
   }
 
-  /// Where the bound does not hold because the boundary is at fault, vertices of it are restored; and if that does not
-  /// help, one with more triangles follows.
+  /// Where the bound does not hold because the boundary is too coarse, one with more triangles follows.
   void run_to_target(Worker &worker) {
-    int restorations = 0;
-    for (double ratio = ratio_of(options_);;) {
-      const Budget budget = budget_;
+    for (double ratio = 2 * ratio_of(options_); !meet_budget(worker); ratio *= 2) {
+      if (budget_.sigma >= 1) fail_bound();
+      budget_ = larger_budget(ratio, budget_.sigma, report_);
+    }
+  }
+
+  /// False: the bound does not hold. Before that, vertices of the boundary are restored where it is at fault.
+  bool meet_budget(Worker &worker) {
+    for (const Budget budget = budget_;; budget_ = budget) {
       const bool collapsed = collapses_edges(options_, report_) && collapse_edges();
       if (!collapsed) remesh_to_target(worker);
       const Array<std::int32_t> beyond = refine(collapsed);
-      if (beyond.empty()) return;
-      if (collapsed && restorations++ < most_restorations) {
-        kept_.restore(beyond, original_.view.points.size());
-        budget_ = budget;
-        continue;
-      }
-      if (budget_.sigma >= 1) fail_bound();
-      budget_ = larger_budget(ratio *= 2, budget_.sigma, report_);
+      if (beyond.empty()) return true;
+      if (!collapsed || kept_.restorations() == most_restorations) return false;
+      kept_.restore(beyond, original_.view.points.size());
     }
   }
 

@@ -305,24 +305,25 @@ Array<std::int32_t> find_homes(Job &job, const AdaptiveMesh<m> &mesh) {
   return home;
 }
 
-/// Sorts probes begin to end by their tets, so that those of a tet lie side by side.
+template <class T>
+void put_in_places(Span<const std::int32_t> places, std::size_t begin, Array<T> &of_probes) {
+  const auto first = of_probes.begin() + std::ptrdiff_t(begin);
+  const Array<T> before(first, first + std::ptrdiff_t(places.size()), of_probes.get_allocator());
+  for (std::size_t i = 0; i < places.size(); i++) first[places[i]] = before[i];
+}
+
+/// Sorts probes begin to end by their tets, so that those of a tet lie side by side. Returns where each has come to be,
+/// from begin on.
 template <std::size_t m>
-void sort_by_home(std::size_t begin, std::size_t end, AdaptiveMesh<m> &mesh, Array<std::int32_t> &home) {
-  Array<std::size_t> place(mesh.tets.size() + 2, 0, &mesh.memory());
-  for (std::size_t i = begin; i < end; i++) place[std::size_t(home[i] + 2)]++;
-  for (std::size_t t = 0; t + 1 < place.size(); t++) place[t + 1] += place[t];
-  Array<Probe<m>> probes(end - begin, &mesh.memory());
-  Array<std::int32_t> homes(end - begin, -1, &mesh.memory()), vertices(&mesh.memory());
-  if (begin == 0) vertices.resize(mesh.vertex_of_probe.size());
-  for (std::size_t i = begin; i < end; i++) {
-    const std::size_t to = place[std::size_t(home[i] + 1)]++;
-    probes[to] = mesh.probes[i];
-    homes[to] = home[i];
-    if (!vertices.empty()) vertices[to] = mesh.vertex_of_probe[i];
-  }
-  if (begin == 0) mesh.vertex_of_probe.swap(vertices);
-  std::copy(probes.begin(), probes.end(), mesh.probes.begin() + std::ptrdiff_t(begin));
-  std::copy(homes.begin(), homes.end(), home.begin() + std::ptrdiff_t(begin));
+Array<std::int32_t> sort_by_home(std::size_t begin, std::size_t end, AdaptiveMesh<m> &mesh, Array<std::int32_t> &home) {
+  Array<std::int32_t> next(mesh.tets.size() + 2, 0, &mesh.memory()), places(&mesh.memory());
+  places.reserve(end - begin);
+  for (std::size_t i = begin; i < end; i++) next[std::size_t(home[i] + 2)]++;
+  for (std::size_t t = 0; t + 1 < next.size(); t++) next[t + 1] += next[t];
+  for (std::size_t i = begin; i < end; i++) places.push_back(next[std::size_t(home[i] + 1)]++);
+  put_in_places(places, begin, mesh.probes);
+  put_in_places(places, begin, home);
+  return places;
 }
 
 }  // namespace
@@ -352,7 +353,7 @@ std::int64_t place_probes(const MeshView &original, const ProbeOptions &options,
   Array<std::int32_t> home = find_homes(job, mesh);
   const auto outside = std::count(home.begin(), home.begin() + std::ptrdiff_t(mesh.vertex_probes), -1);
   if (options.project_outside && outside > 0) project(job, home, mesh);
-  sort_by_home(0, mesh.vertex_probes, mesh, home);
+  put_in_places(sort_by_home(0, mesh.vertex_probes, mesh, home), 0, mesh.vertex_of_probe);
   job.poll(0.2);
   sort_by_home(mesh.vertex_probes, home.size(), mesh, home);
   mesh.next_probe.assign(home.size(), -1);

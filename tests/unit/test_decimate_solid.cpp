@@ -250,9 +250,10 @@ bool satisfies_link_condition(const std::vector<Simplex> &maximal, std::int32_t 
 void jitter(Mesh &mesh, double most, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> step(-most, most);
-  for (Vec3 &p : mesh.points)
-    if (std::min({p.x, p.y, p.z}) > 0 && std::max({p.x, p.y, p.z}) < 1)
-      p += Vec3(step(random), step(random), step(random));
+  transform(mesh, [&](const Vec3 &p) {
+    const bool inner = std::min({p.x, p.y, p.z}) > 0 && std::max({p.x, p.y, p.z}) < 1;
+    return inner ? p + Vec3(step(random), step(random), step(random)) : p;
+  });
 }
 
 double volume6(const Mesh &mesh, const Tet &t) {

@@ -10,22 +10,27 @@ namespace {
 
 using namespace test;
 
+/// `mesh` becomes the coarse one, of value 0, among the vertices of the original.
+void put_among(const Mesh &original, const Mesh &coarse, bool project_outside, Host &host, AdaptiveMesh<1> &mesh) {
+  const TetMesh result = as_result(coarse, host.memory);
+  mesh.points.assign(result.points.begin(), result.points.end());
+  mesh.tets.assign(result.tets.begin(), result.tets.end());
+  mesh.values.assign(mesh.points.size(), Values<1>{0});
+  mesh.kept.assign(mesh.points.size(), 0);
+  mesh.connect(host.job);
+  ProbeOptions vertices;
+  vertices.most_inner = 0;
+  vertices.project_outside = project_outside;
+  place_probes(original.view(), vertices, host.job, mesh);
+}
+
 /// A coarse cube among the vertices of a fine one.
 class TheLargestError : public testing::Test {
  protected:
   TheLargestError() : original(kuhn_cube(8)), mesh(host.memory) {
     set_scalars(original,
                 [](const Vec3 &p) { return std::sin(9 * p.x) * std::cos(7 * p.y) + std::exp(p.y + 2 * p.z); });
-    const Mesh coarse = kuhn_cube(2);
-    const TetMesh result = as_result(coarse, host.memory);
-    mesh.points.assign(result.points.begin(), result.points.end());
-    mesh.tets.assign(result.tets.begin(), result.tets.end());
-    mesh.values.assign(mesh.points.size(), Values<1>{0});
-    mesh.kept.assign(mesh.points.size(), 0);
-    mesh.connect(host.job);
-    ProbeOptions vertices;
-    vertices.most_inner = 0;
-    place_probes(original.view(), vertices, host.job, mesh);
+    put_among(original, kuhn_cube(2), false, host, mesh);
   }
 
   double largest() { return largest_error(mesh, host.job).value; }
@@ -86,17 +91,8 @@ TEST(HoldBound, NamesTheVerticesThatNeedAnotherBoundary) {
   original.tets.push_back({number({1, 1, 1}), number({1, 0, 0}), number({1, 0, 1}), beyond});
   for (double bound : {0.5, 2.0}) {
     AdaptiveMesh<1> mesh(host.memory);
-    const TetMesh result = as_result(cube, host.memory);
-    mesh.points.assign(result.points.begin(), result.points.end());
-    mesh.tets.assign(result.tets.begin(), result.tets.end());
-    mesh.values.assign(mesh.points.size(), Values<1>{0});
-    mesh.kept.assign(mesh.points.size(), 0);
+    put_among(original, cube, true, host, mesh);
     mesh.kept[std::size_t(number({1, 1, 1}))] = 1;
-    mesh.connect(host.job);
-    ProbeOptions vertices;
-    vertices.most_inner = 0;
-    vertices.project_outside = true;
-    place_probes(original.view(), vertices, host.job, mesh);
     const Array<std::int32_t> left = hold_bound(bound, host.job, mesh);
     EXPECT_EQ(std::vector<std::int32_t>(left.begin(), left.end()),
               bound < 1 ? std::vector<std::int32_t>{beyond} : std::vector<std::int32_t>{});
