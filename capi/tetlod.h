@@ -320,14 +320,14 @@ enum {
                                    values' errors, and the smaller the mesh, the more passes follow, up to 12, that also
                                    remove and insert vertices; remeshed is only what cannot be had so (a size beyond the
                                    mesh's topology, tets that overlap), and where clean-edges is set. TETLOD_EFFORT_FAST:
-                                   the same without the passes; and of 100,000 tets or more to below 0.095, the boundary
-                                   is decimated by quadrics that see the field, samples are taken where a linear field
-                                   would be wrong, both are remeshed, and one pass follows */
+                                   the same without the passes; and of 100,000 tets or more to a ratio below 0.095, the
+                                   boundary is decimated by quadrics that see the field, samples are taken where a linear
+                                   field would be wrong, both are remeshed, and one pass follows */
   TETLOD_OPT_MAX_ERROR = 22,    /* real, "max-error": bound of the error at every original vertex, as a fraction of the
                                    values' range, for every field that steers; one that lies outside the result is
                                    compared at the nearest point of its boundary. Begins with target-ratio (0: where the
-                                   error is about twice the bound, 0.01 at least; of samples 0.05), and takes what it
-                                   needs; 0, the default: none. Where it cannot be held: TETLOD_ERR_MAX_ERROR */
+                                   error is about twice the bound, 0.01 at least), changes values and takes the vertices
+                                   that it needs; 0, the default: none. Where it cannot be held: TETLOD_ERR_MAX_ERROR */
   TETLOD_OPT_MAX_DEVIATION = 23, /* real, "max-deviation": bound of the distance between the boundaries of original and
                                    result, at vertices and middles of edges and triangles of both, as a fraction of the
                                    diagonal; more of the boundary is kept than asked for. Of triangles that are divided

@@ -20,11 +20,11 @@ inline double ratio_of(const Options &options) { return options.target_ratio > 0
 constexpr double small_mesh = 1e5;
 
 /// A coarse mesh by collapsing edges is more accurate; one from samples is there sooner, where the mesh is large and
-/// little of it is kept, or so few tets that TetGen makes them soon. A bound alone begins with few.
+/// little of it is kept, or so few tets that TetGen makes them soon. A bound alone asks for accuracy.
 inline bool samples_sooner(const Options &options, const Report &report) {
   constexpr double soon_made = 25000, little = 0.05, most = 0.095;
-  const auto tets = double(report.tets_in);
-  return tets >= small_mesh && options.target_ratio < std::clamp(soon_made / tets, little, most);
+  const double tets = double(report.tets_in), ratio = options.target_ratio;
+  return tets >= small_mesh && ratio > 0 && ratio < std::clamp(soon_made / tets, little, most);
 }
 
 inline bool collapses_edges(const Options &options, const Report &report) {

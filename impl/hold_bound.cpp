@@ -6,6 +6,7 @@
 #include <queue>
 
 #include "flip_tets.hpp"
+#include "give_way.hpp"
 #include "insert_vertices.hpp"
 
 namespace tetlod {
@@ -69,7 +70,9 @@ class LargestErrors {
  public:
   LargestErrors(Job &job, AdaptiveMesh<m> &mesh) : job_(job), mesh_(mesh), around_(&job.memory), left_(&job.memory) {}
 
+  /// Ends: there are so many vertices to insert, and values that give way bring no probe beyond the bound.
   Array<std::int32_t> hold(double bound) {
+    for (std::size_t p = 0; p < mesh_.vertex_probes; p++) range_.add(mesh_.probes[p].value);
     for (int sweep = 0;; sweep++) {
       const std::int64_t served = serve_beyond((1 - margin) * bound);
       if (served == 0) return std::move(left_);
@@ -98,7 +101,7 @@ class LargestErrors {
   }
 
  private:
-  /// How many vertices; left_ are those that could not be.
+  /// How many probes; left_ are the vertices of those that could not be.
   std::int64_t serve_beyond(double bound) {
     std::int64_t done = 0;
     left_.clear();
@@ -108,7 +111,9 @@ class LargestErrors {
       if (!mesh_.alive(std::int32_t(t))) continue;
       const LargestError worst = largest_in(mesh_, std::int32_t(t));
       if (worst.value <= bound) continue;
-      if (serve(std::int32_t(t), mesh_.probes[std::size_t(worst.probe)]))
+      const auto probe = std::int32_t(worst.probe);
+      if (give_way(std::int32_t(t), probe, bound, range_, mesh_) ||
+          serve(std::int32_t(t), mesh_.probes[std::size_t(probe)]))
         done++;
       else
         left_.push_back(mesh_.vertex_of_probe[std::size_t(worst.probe)]);
@@ -144,6 +149,7 @@ class LargestErrors {
   AdaptiveMesh<m> &mesh_;
   Array<std::int32_t> around_;
   Array<std::int32_t> left_;
+  ValueRange<m> range_;  // of all probes
 };
 
 }  // namespace

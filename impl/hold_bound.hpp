@@ -14,10 +14,10 @@ struct LargestError {
 template <std::size_t m>
 LargestError largest_error(const AdaptiveMesh<m> &mesh, Job &job);
 
-/// Makes original vertices, with their values, vertices of the mesh where a field is off by more than `bound`,
-/// relative to its range as largest_error(), the worst of each tet first, until there is none; those on the boundary
-/// divide its faces. Returns those, of the original's, with which that could not be done: two are at one point of the
-/// boundary, or a tet would be too flat.
+/// Where a field is off by more than `bound`, relative to its range as largest_error(), the worst of each tet first,
+/// values of the mesh give way; where they cannot, original vertices, with their values, become vertices of the mesh,
+/// until there is none; those on the boundary divide its faces. Returns those, of the original's, with which that could
+/// not be done: two are at one point of the boundary, or a tet would be too flat.
 template <std::size_t m>
 Array<std::int32_t> hold_bound(double bound, Job &job, AdaptiveMesh<m> &mesh);
 

@@ -77,26 +77,50 @@ TEST_F(TheLargestError, StaysWithoutTetsForIt) {
   EXPECT_EQ(largest(), before);
 }
 
-/// Beyond a corner of the mesh, which has another value: no vertex that is put on the boundary makes both right.
-TEST(HoldBound, NamesTheVerticesThatNeedAnotherBoundary) {
-  Host host;
-  const Mesh cube = kuhn_cube(1);
-  Mesh original = cube;
-  const auto number = [&](const Vec3 &p) {
-    return std::int32_t(std::find(cube.points.begin(), cube.points.end(), p) - cube.points.begin());
-  };
-  const auto beyond = std::int32_t(cube.points.size());
-  original.points.push_back({1.2, 1.2, 1.2});
-  original.scalars.push_back(1);
-  original.tets.push_back({number({1, 1, 1}), number({1, 0, 0}), number({1, 0, 1}), beyond});
-  for (double bound : {0.5, 2.0}) {
-    AdaptiveMesh<1> mesh(host.memory);
+/// A vertex of value 1 beyond a corner of the mesh, whose value is 0: they count at the same point of the boundary.
+class BeyondACorner : public testing::Test {
+ protected:
+  BeyondACorner() : cube(kuhn_cube(1)), original(cube), mesh(host.memory) {
+    original.points.push_back({1.2, 1.2, 1.2});
+    original.scalars.push_back(1);
+    original.tets.push_back({number({1, 1, 1}), number({1, 0, 0}), number({1, 0, 1}), beyond()});
     put_among(original, cube, true, host, mesh);
-    mesh.kept[std::size_t(number({1, 1, 1}))] = 1;
-    const Array<std::int32_t> left = hold_bound(bound, host.job, mesh);
-    EXPECT_EQ(std::vector<std::int32_t>(left.begin(), left.end()),
-              bound < 1 ? std::vector<std::int32_t>{beyond} : std::vector<std::int32_t>{});
   }
+  std::int32_t number(const Vec3 &p) const {
+    return std::int32_t(std::find(cube.points.begin(), cube.points.end(), p) - cube.points.begin());
+  }
+  std::int32_t beyond() const { return std::int32_t(cube.points.size()); }
+  std::vector<std::int32_t> held_by(double bound) {
+    const Array<std::int32_t> left = hold_bound(bound, host.job, mesh);
+    return {left.begin(), left.end()};
+  }
+
+  Host host;
+  const Mesh cube;
+  Mesh original;
+  AdaptiveMesh<1> mesh;
+};
+
+/// No value, and no vertex that is put on the boundary, makes both right: one of them is left.
+TEST_F(BeyondACorner, NeedsAnotherBoundary) {
+  const std::vector<std::int32_t> left = held_by(0.4);
+  ASSERT_EQ(left.size(), 1u);
+  EXPECT_TRUE(left[0] == beyond() || left[0] == number({1, 1, 1}));
+}
+
+TEST_F(BeyondACorner, NeedsAnotherBoundaryWhereTheHostKeepsTheValue) {
+  mesh.kept[std::size_t(number({1, 1, 1}))] = 1;
+  EXPECT_EQ(held_by(0.6), std::vector<std::int32_t>{beyond()});
+  EXPECT_EQ(held_by(2), std::vector<std::int32_t>{});
+}
+
+/// Where it serves both, and changes no further than that.
+TEST_F(BeyondACorner, TakesAValueBetween) {
+  const std::size_t tets = mesh.count();
+  EXPECT_EQ(held_by(0.6), std::vector<std::int32_t>{});
+  EXPECT_EQ(mesh.count(), tets);
+  EXPECT_NEAR(mesh.values[std::size_t(number({1, 1, 1}))][0], 0.4, 1e-3);
+  EXPECT_LE(largest_error(mesh, host.job).value, 0.6);
 }
 
 }  // namespace

@@ -1,0 +1,117 @@
+#include "give_way.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace tetlod {
+
+namespace {
+
+/// Of the bound, kept clear of: an error that is to be the bound would be beyond it.
+constexpr double rounding = 1e-6;
+/// Of the probe, at a corner; with less, the values there would have to change by much.
+constexpr double least_weight = 0.1;
+
+/// What may be added to a value.
+struct Step {
+  double low, high;
+
+  /// So that r, with that times the weight, is between -limit and limit.
+  void hold(double r, double weight, double limit) {
+    constexpr double none = 1e-12;
+    if (std::abs(weight) < none) return;
+    const double a = (-limit - r) / weight, b = (limit - r) / weight;
+    low = std::max(low, std::min(a, b));
+    high = std::min(high, std::max(a, b));
+  }
+};
+
+/// The steps of the values of one vertex that are admissible.
+template <std::size_t m>
+class Steps {
+ public:
+  Steps(const AdaptiveMesh<m> &mesh, std::int32_t v, const ValueRange<m> &range) : mesh_(mesh), v_(v) {
+    const Values<m> &values = mesh.values[std::size_t(v)];
+    for (std::size_t i = 0; i < m; i++) steps_[i] = {range.low[i] - values[i], range.high[i] - values[i]};
+  }
+
+  bool exist() const {
+    return std::all_of(steps_.begin(), steps_.end(), [](const Step &step) { return step.low <= step.high; });
+  }
+
+  /// The bound at a probe of tet t; where it is none that must, an error beyond it may stay as it is.
+  void hold(std::int32_t t, const TetFrame &frame, std::int32_t probe, double bound, bool must) {
+    const Tet &tet = mesh_.tets[std::size_t(t)];
+    const Probe<m> &at = mesh_.probes[std::size_t(probe)];
+    double w[4];
+    frame.weights(at.point, w);
+    const Values<m> r = mesh_.residual(tet, w, at);
+    const double weight = w[std::find(tet.begin(), tet.end(), v_) - tet.begin()];
+    for (std::size_t i = 0; i < m; i++) {
+      const double limit = (1 - rounding) * bound / mesh_.scales.relative[i];
+      steps_[i].hold(r[i], weight, must ? limit : std::max(limit, std::abs(r[i])));
+    }
+  }
+
+  void hold_around(Span<const std::int32_t> tets, double bound) {
+    for (std::int32_t t : tets) {
+      const TetFrame frame = mesh_.frame(t);
+      mesh_.for_probes(t, [&](std::int32_t p) {
+        if (std::size_t(p) < mesh_.vertex_probes) hold(t, frame, p, bound, false);
+      });
+      if (!exist()) return;
+    }
+  }
+
+  Values<m> least() const {
+    Values<m> least;
+    for (std::size_t i = 0; i < m; i++) least[i] = std::clamp(0.0, steps_[i].low, steps_[i].high);
+    return least;
+  }
+
+ private:
+  const AdaptiveMesh<m> &mesh_;
+  std::int32_t v_;
+  std::array<Step, m> steps_;
+};
+
+/// Not what the host keeps; and where the solid touches itself, tets of a vertex are not all found.
+template <std::size_t m>
+bool may_change(const AdaptiveMesh<m> &mesh, std::int32_t v) {
+  return (mesh.kept[std::size_t(v)] & ~held) == 0 && mesh.fixed[std::size_t(v)] != touching;
+}
+
+}  // namespace
+
+template <std::size_t m>
+bool give_way(std::int32_t t, std::int32_t probe, double bound, const ValueRange<m> &range, AdaptiveMesh<m> &mesh) {
+  const TetFrame frame = mesh.frame(t);
+  double w[4];
+  frame.weights(mesh.probes[std::size_t(probe)].point, w);
+  std::array<std::size_t, 4> order{0, 1, 2, 3};
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return w[a] > w[b]; });
+  Array<std::int32_t> around(&mesh.memory());
+  for (std::size_t k : order) {
+    const std::int32_t v = mesh.tets[std::size_t(t)][k];
+    if (w[k] < least_weight || !may_change(mesh, v)) continue;
+    Steps<m> steps(mesh, v, range);
+    steps.hold(t, frame, probe, bound, true);
+    if (!steps.exist()) continue;
+    mesh.star(v, around);
+    steps.hold_around(around, bound);
+    if (!steps.exist()) continue;
+    const Values<m> least = steps.least();
+    for (std::size_t i = 0; i < m; i++) mesh.values[std::size_t(v)][i] += least[i];
+    for (std::int32_t at : around) mesh.measure(at);
+    return true;
+  }
+  return false;
+}
+
+template bool give_way(std::int32_t, std::int32_t, double, const ValueRange<1> &, AdaptiveMesh<1> &);
+template bool give_way(std::int32_t, std::int32_t, double, const ValueRange<2> &, AdaptiveMesh<2> &);
+template bool give_way(std::int32_t, std::int32_t, double, const ValueRange<3> &, AdaptiveMesh<3> &);
+template bool give_way(std::int32_t, std::int32_t, double, const ValueRange<4> &, AdaptiveMesh<4> &);
+
+}  // namespace tetlod
