@@ -96,7 +96,7 @@ inline Budget larger_budget(double ratio, double sigma, const Report &report) {
 /// the diagonal; by experience. With looser bounds than that, and with a smaller part of the tets, the shape would
 /// suffer; above the larger part, insertions where they are needed take fewer.
 inline Budget budget_for_bound(double max_error, double diagonal, const Report &report) {
-  constexpr double cost_of_bound = 40, loosest = 0.05, least = 0.01, enough = 0.15;
+  constexpr double cost_of_bound = 50, loosest = 0.04, least = 0.01, enough = 0.15;
   Budget budget = budget_of(first_ratio, report);
   const double whole = double(budget.tets) / first_ratio,
                length = cost_of_bound * std::min(max_error, loosest) * diagonal;
