@@ -91,6 +91,12 @@ inline Budget larger_budget(double ratio, double sigma, const Report &report) {
   return budget;
 }
 
+/// There is no larger budget: where edges collapse, none would.
+inline bool is_whole(const Budget &budget, const Options &options, const Report &report) {
+  return budget.sigma >= 1 &&
+         (!collapses_edges(options, report) || budget.tets >= report.tets_in - report.dropped_tets);
+}
+
 /// Where edges collapse, a bound without a size begins where the largest error is about twice the bound, which takes
 /// fewer tets in the end than other beginnings: when collapses cost more than the square of so many times the bound, of
 /// the diagonal; by experience. With looser bounds than that, and with a smaller part of the tets, the shape would

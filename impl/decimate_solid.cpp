@@ -290,10 +290,15 @@ class SolidDecimator {
       LocalQuadric<3 + m> sum = mesh_.vertex(edge.stays).quadric.moved(minus(best, stays));
       sum.add(mesh_.vertex(edge.gone).quadric.moved(minus(best, gone)));
       Place step;
-      if (step_to_least(sum, constraint, step) && is_short(step, d) && suits(along(best, 1, step), collapse))
+      if (step_to_least(sum, constraint, step) && is_short(step, d) && keeps_volume(constraint, step) &&
+          suits(along(best, 1, step), collapse))
         return true;
     }
-    return std::abs(constraint.offset) / 6 <= volume_of_collapse_ && suits(best, collapse);
+    return keeps_volume(constraint, {}) && suits(best, collapse);
+  }
+
+  bool keeps_volume(const StepConstraint &constraint, const Place &step) const {
+    return constraint.missed_by(point_of(step)) / 6 <= volume_of_collapse_;
   }
 
   static bool is_short(const Place &step, const Place &edge) {

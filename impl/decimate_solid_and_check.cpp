@@ -46,11 +46,13 @@ std::string check_surface_of(const SurfaceTopology &topology, std::size_t fields
 std::string check(const SolidOptions &options, const SurfaceTopology &topology, std::size_t fields, Job &job,
                   CoarseSolid &coarse) {
   TetMesh &mesh = coarse.mesh;
-  if (options.enough == 0 && double(mesh.tets.size()) > (1 + most_missed) * double(options.tets))
-    return text("no edge is left to collapse at %zu tets", mesh.tets.size());
   std::string wrong = make_all_positive(mesh.points, {mesh.tets.data(), mesh.tets.size()}, 1, job);
   if (wrong.empty()) wrong = check_volume(mesh.points, mesh.tets, mesh.boundary, 1, job);
-  return wrong.empty() ? check_surface_of(topology, fields, job, coarse) : wrong;
+  if (wrong.empty()) wrong = check_surface_of(topology, fields, job, coarse);
+  coarse.is_sound = wrong.empty();
+  if (coarse.is_sound && options.enough == 0 && double(mesh.tets.size()) > (1 + most_missed) * double(options.tets))
+    return text("no edge is left to collapse at %zu tets", mesh.tets.size());
+  return wrong;
 }
 
 /// Of original vertices: those that are kept, and where the solid touches itself.
@@ -85,7 +87,7 @@ std::string decimate_solid_and_check(const MeshView &original, const Boundary &b
   coarse.reused = decimate_solid(original, boundary, surface, options, history, job, coarse.mesh, coarse.origin);
   if (lowered > 0 && lower(options, lowered, topology, surface, job, coarse)) return {};
   const std::string wrong = check(options, topology, original.fields, job, coarse);
-  if (wrong.empty())
+  if (coarse.is_sound)
     coarse.deviation = largest_deviation(surface, coarse.surface, samples_for(options.max_deviation), job);
   return wrong;
 }

@@ -6,8 +6,8 @@
 #include <glm/matrix.hpp>
 
 #include "adaptive_mesh.hpp"
-#include "budget.hpp"
 #include "geometry.hpp"
+#include "place_probes.hpp"
 #include "surface_distance.hpp"
 
 namespace tetlod {
@@ -113,6 +113,31 @@ std::size_t count_linear_parts(const MeshView &mesh, Span<std::int32_t> vertices
          count_linear_parts(mesh, {vertices.data() + middle, vertices.size() - middle}, bound, job);
 }
 
+/// Share of the samples, out of some of them, that the original's boundary is not nearer to than `least`.
+double share_away(Span<const Vec3> points, Span<const Triangle> boundary, Span<const std::int32_t> samples,
+                  double least, Job &job) {
+  constexpr std::size_t enough = 1000;
+  const NearestTriangle nearest(points, boundary, 8, job);
+  const std::size_t step = samples.size() / enough + 1;
+  std::size_t asked = 0, away = 0;
+  for (std::size_t i = 0; i < samples.size(); i += step) {
+    if (asked++ % 64 == 0) job.poll(0.5);
+    away += nearest.nearest(points[std::size_t(samples[i])]).distance >= least;
+  }
+  return asked ? double(away) / double(asked) : 1;
+}
+
+/// How many tets a bound of the error takes, more or less: by the number of parts into which the vertices are to be
+/// divided until in none the values are off by more than `bound` from a linear function. 0: there is no bound.
+double tets_for_bound(const MeshView &mesh, double bound, Job &job) {
+  if (!(bound > 0)) return 0;
+  Array<std::int32_t> vertices(&job.memory);
+  vertices.reserve(mesh.points.size());
+  for (std::size_t v = 0; v < mesh.points.size(); v++) vertices.push_back(std::int32_t(v));
+  const std::size_t parts = count_linear_parts(mesh, {vertices.data(), vertices.size()}, bound, job);
+  return std::min(tets_a_part * double(parts), double(mesh.tets.size()));
+}
+
 }  // namespace
 
 double expected_bytes(const Outlook &outlook, const Input &input) {
@@ -131,26 +156,29 @@ double expected_bytes(const Outlook &outlook, const Input &input) {
                    input.fields.empty() ? 0 : bytes_of_fields(outlook, input)});
 }
 
-double share_away(Span<const Vec3> points, Span<const Triangle> boundary, Span<const std::int32_t> samples,
-                  double least, Job &job) {
-  constexpr std::size_t enough = 1000;
-  const NearestTriangle nearest(points, boundary, 8, job);
-  const std::size_t step = samples.size() / enough + 1;
-  std::size_t asked = 0, away = 0;
-  for (std::size_t i = 0; i < samples.size(); i += step) {
-    if (asked++ % 64 == 0) job.poll(0.5);
-    away += nearest.nearest(points[std::size_t(samples[i])]).distance >= least;
+Outlook outlook_of(const Original &original, const Boundary &boundary, Span<const std::int32_t> samples,
+                   const Options &options, const Budget &budget, const Report &report, Job &job) {
+  Outlook of;
+  of.boundary_triangles = double(boundary.triangles.size());
+  if (as_published(options)) {
+    const double least = options.min_distance * original.box.diagonal();
+    const double away =
+        share_away(original.view.points, boundary.triangles, samples, least, job) * double(samples.size());
+    const double of_boundary = options.sigma * of.boundary_triangles / 2;
+    of.points = of_boundary + away;
+    of.tets = tets_a_boundary_point * of_boundary + tets_a_sample * away;
+    return of;
   }
-  return asked ? double(away) / double(asked) : 1;
-}
-
-double tets_for_bound(const MeshView &mesh, double bound, Job &job) {
-  if (!(bound > 0)) return 0;
-  Array<std::int32_t> vertices(&job.memory);
-  vertices.reserve(mesh.points.size());
-  for (std::size_t v = 0; v < mesh.points.size(); v++) vertices.push_back(std::int32_t(v));
-  const std::size_t parts = count_linear_parts(mesh, {vertices.data(), vertices.size()}, bound, job);
-  return std::min(tets_a_part * double(parts), double(mesh.tets.size()));
+  if (collapses_edges(options, report)) {
+    of.solid_tets = double(original.view.tets.size());
+    of.solid_points = double(original.view.points.size());
+  }
+  of.fields = double(original.view.fields);
+  of.tets = std::max(double(budget.tets), tets_for_bound(original.view, options.max_error * original.range, job));
+  of.points = of.tets / tets_a_point;
+  const double first = std::max(double(budget.tets), std::min(of.tets, double(budget.enough)));
+  of.probes = double(expected_probes(original.view, enough_probes(first, rounds_of(options, report))));
+  return of;
 }
 
 }  // namespace tetlod

@@ -2,9 +2,9 @@
 #pragma once
 #include <cstdint>
 
-#include "job.hpp"
-#include "mesh.hpp"
-#include "pipeline.hpp"
+#include "budget.hpp"
+#include "extract_boundary.hpp"
+#include "prepare.hpp"
 
 namespace tetlod {
 
@@ -21,12 +21,8 @@ struct Outlook {
 /// constants come from real sets with 2 K to 54 K boundary triangles and results of 0.4 K to 750 K tets.
 double expected_bytes(const Outlook &outlook, const Input &input);
 
-/// Share of the samples, out of some of them, that the original's boundary is not nearer to than `least`.
-double share_away(Span<const Vec3> points, Span<const Triangle> boundary, Span<const std::int32_t> samples,
-                  double least, Job &job);
-
-/// How many tets a bound of the error takes, more or less: by the number of parts into which the vertices are to be
-/// divided until in none the values are off by more than `bound` from a linear function. 0: there is no bound.
-double tets_for_bound(const MeshView &mesh, double bound, Job &job);
+/// When boundary, samples and the first budget are known.
+Outlook outlook_of(const Original &original, const Boundary &boundary, Span<const std::int32_t> samples,
+                   const Options &options, const Budget &budget, const Report &report, Job &job);
 
 }  // namespace tetlod

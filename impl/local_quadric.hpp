@@ -74,10 +74,13 @@ BestOfEdge best_of_edge(const LocalQuadric<n> &first, const LocalQuadric<n> &sec
   return {t, at_first + t * (slope + t * bend)};
 }
 
-/// A step with normal . step = offset, in space; without a normal, any.
+/// A step with normal . step = offset, in space; or any.
 struct StepConstraint {
   Vec3 normal{0};
   double offset = 0;
+  bool holds = false;
+
+  double missed_by(const Vec3 &step) const { return std::abs(offset - glm::dot(normal, step)); }
 };
 
 /// The step from where q is kept to its least, with a small pull back where it says nothing. False: rounding leaves no
@@ -93,7 +96,7 @@ bool step_to_least(const LocalQuadric<n> &q, const StepConstraint &constraint, V
   const Cholesky<n> solver(a, 0);
   if (!solver.regular()) return false;
   step = solver.solve(along(Vector<n>{}, -1, q.g));
-  if (constraint.normal != Vec3(0)) {
+  if (constraint.holds) {
     const Vector<n> normal{constraint.normal.x, constraint.normal.y, constraint.normal.z};
     const Vector<n> across = solver.solve(normal);
     step = along(step, (constraint.offset - dot<n>(normal, step)) / dot<n>(normal, across), across);

@@ -2,7 +2,6 @@
 
 #include <chrono>
 
-#include "budget.hpp"
 #include "carry_fields.hpp"
 #include "cull_samples.hpp"
 #include "decimate_solid_and_check.hpp"
@@ -13,7 +12,6 @@
 #include "hash.hpp"
 #include "interpolate.hpp"
 #include "kept_vertices.hpp"
-#include "place_probes.hpp"
 #include "prepared.hpp"
 #include "refine.hpp"
 #include "select_samples.hpp"
@@ -49,31 +47,7 @@ class Pipeline {
   }
 
   /// After begin().
-  Outlook outlook() {
-    Outlook of;
-    of.boundary_triangles = double(boundary_.triangles.size());
-    if (as_published(options_)) {
-      const double least = options_.min_distance * original_.box.diagonal();
-      const double share = share_away(original_.view.points, boundary_.triangles, selected_, least, job_);
-      const double samples = share * double(selected_.size());
-      const double of_boundary = options_.sigma * of.boundary_triangles / 2;
-      of.points = of_boundary + samples;
-      of.tets = tets_a_boundary_point * of_boundary + tets_a_sample * samples;
-      return of;
-    }
-    if (collapses_edges(options_, report_)) {
-      of.solid_tets = double(original_.view.tets.size());
-      of.solid_points = double(original_.view.points.size());
-    }
-    const double bound = options_.max_error * original_.range;
-    of.fields = double(original_.view.fields);
-    of.tets = std::max(double(budget_.tets), tets_for_bound(original_.view, bound, job_));
-    of.points = of.tets / tets_a_point;
-    const double first = std::max(double(budget_.tets), std::min(of.tets, double(budget_.enough)));
-    const ProbeOptions enough = enough_probes(first, rounds_of(options_, report_));
-    of.probes = double(expected_probes(original_.view, enough));
-    return of;
-  }
+  Outlook outlook() { return outlook_of(original_, boundary_, selected_, options_, budget_, report_, job_); }
 
   void run(Worker &worker) {
     begin();
@@ -96,21 +70,42 @@ class Pipeline {
   /// Where the bound does not hold because the boundary is too coarse, one with more triangles follows.
   void run_to_target(Worker &worker) {
     for (double ratio = 2 * ratio_of(options_); !meet_budget(worker); ratio *= 2) {
-      if (budget_.sigma >= 1) fail_bound();
-      budget_ = larger_budget(ratio, budget_.sigma, report_);
+      if (is_whole(budget_, options_, report_)) fail_bound();
+      budget_ = has_grown() ? larger_budget(1, 1, report_) : larger_budget(ratio, budget_.sigma, report_);
     }
   }
 
-  /// False: the bound does not hold. Before that, vertices of the boundary are restored where it is at fault.
+  /// False: the bound does not hold, or takes more tets than the whole mesh has, which holds it, too. Before that,
+  /// vertices of the boundary are restored where it is at fault.
   bool meet_budget(Worker &worker) {
     for (const Budget budget = budget_;; budget_ = budget) {
-      const bool collapsed = collapses_edges(options_, report_) && collapse_edges();
-      if (!collapsed) remesh_to_target(worker);
+      const bool collapsed = coarsen(worker);
       const Array<std::int32_t> beyond = refine(collapsed);
-      if (beyond.empty()) return true;
+      if (beyond.empty()) return !has_grown() || options_.max_error <= 0 || is_whole(budget_, options_, report_);
       if (!collapsed || kept_.restorations() == most_restorations) return false;
       kept_.restore(beyond, original_.view.points.size());
     }
+  }
+
+  bool has_grown() const {
+    return collapses_edges(options_, report_) && std::int64_t(mesh_.tets.size()) > report_.tets_in;
+  }
+
+  /// By collapses, or, where they lead to no sound mesh of the size, by remeshing; of two that are too large the
+  /// smaller. Returns whether the mesh is by collapses.
+  bool coarsen(Worker &worker) {
+    CoarseSolid coarse(job_.memory);
+    const bool collapsed = collapses_edges(options_, report_) && collapse_edges(coarse);
+    try {
+      if (!collapsed) remesh_to_target(worker);
+    } catch (const Error &error) {
+      if (error.status() != Status::remesh || !coarse.is_sound) throw;
+      mesh_.tets.clear();
+    }
+    const bool is_smaller = mesh_.tets.empty() || coarse.mesh.tets.size() < mesh_.tets.size();
+    if (!collapsed && !(coarse.is_sound && is_smaller)) return false;
+    take_over(std::move(coarse));
+    return true;
   }
 
   void remesh_to_target(Worker &worker) {
@@ -121,32 +116,32 @@ class Pipeline {
   }
 
   /// To the budget, or to what suits the bound. False: that way leads to no sound mesh of the size.
-  bool collapse_edges() {
+  bool collapse_edges(CoarseSolid &coarse) {
     describe_boundary(prepared_.topology(job_), report_);
     const StageTimer timer(Stage::decimate, job_, report_);
-    const double diagonal = original_.box.diagonal(), deviation = options_.max_deviation * diagonal;
     const CollapseSizes sizes = collapse_sizes(budget_, options_);
-    const SolidOptions options{sizes.tets,          budget_.enough,  budget_.dearest,  deviation,
+    const SolidOptions options{sizes.tets,          budget_.enough,  budget_.dearest,  deviation_limit(),
                                options_.warm_start, kept_.by_host(), kept_.restored(), {}};
-    CoarseSolid coarse(job_.memory);
     const std::string wrong =
         decimate_solid_and_check(original_.view, boundary_, prepared_.surface(job_), prepared_.topology(job_), options,
                                  sizes.lowered, prepared_.history(options_.warm_start > 0, job_), job_, coarse);
     report_.reused_collapses = coarse.reused;
-    if (!wrong.empty()) {
-      if (job_.log) job_.log(1, ("edges collapsed in vain, so that it is remeshed: " + wrong).c_str());
-      return false;
-    }
+    if (!wrong.empty() && job_.log) job_.log(1, ("edges collapsed in vain, so that it is remeshed: " + wrong).c_str());
+    return wrong.empty();
+  }
+
+  void take_over(CoarseSolid &&coarse) {
     mesh_ = std::move(coarse.mesh);
     if (budget_.enough > 0) budget_.tets = std::int64_t(mesh_.tets.size());
     origin_ = std::move(coarse.origin);
     topology_ = std::move(coarse.topology);
-    report_.max_deviation = coarse.deviation / diagonal;
+    report_.max_deviation = coarse.deviation / original_.box.diagonal();
     describe_simplified_boundary(topology_, report_);
     report_.samples = report_.selected_samples = std::int64_t(mesh_.points.size()) - report_.boundary_points_out;
     report_.samples_outside = report_.samples_too_near = report_.steiner_points = 0;  // of a round before
-    return true;
   }
+
+  double deviation_limit() const { return options_.max_deviation * original_.box.diagonal(); }
 
   [[noreturn]] void fail_bound() const {
     fail(Status::max_error, "max-error %s cannot be held: the largest error is %s, with the whole boundary",
@@ -177,16 +172,15 @@ class Pipeline {
   /// The original vertices that are beyond the bound.
   Array<std::int32_t> refine(bool collapsed) {
     const StageTimer timer(Stage::values, job_, report_);
-    const double range = original_.range, diagonal = original_.box.diagonal();
+    const double range = original_.range, bound = options_.max_error * range;
     const Array<std::uint8_t> kept = kept_.flags_of(origin_, job_.memory);
-    const double bound = options_.max_error * range, deviation = options_.max_deviation * diagonal;
     const bool follows_field = !collapsed || options_.effort == effort_accurate;
     const std::int64_t before = tets_before_lowering(budget_, options_, collapsed, mesh_.tets.size());
     const RefineOptions options{
-        budget_.tets, before, report_.steiner_points, follows_field, rounds_of(options_, report_),
-        bound,        kept,   boundary_.triangles,    deviation};
+        budget_.tets, before, report_.steiner_points, follows_field,    rounds_of(options_, report_),
+        bound,        kept,   boundary_.triangles,    deviation_limit()};
     RefineReport refined = tetlod::refine(original_.view, options, job_, mesh_);
-    report_.max_deviation = std::max(report_.max_deviation, refined.deviation / diagonal);
+    report_.max_deviation = std::max(report_.max_deviation, refined.deviation / original_.box.diagonal());
     report_.samples -= refined.removed_samples;
     report_.steiner_points -= refined.removed_steiner;
     report_.inserted_points = refined.inserted - refined.inserted_on_boundary;

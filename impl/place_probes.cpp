@@ -231,6 +231,16 @@ class Locator {
   KdTree tree_;
 };
 
+/// Whether a point that was found in tet t is a little outside of it there, and of all, as the boundary is no farther
+/// off than that. Where it is, rounding has left a gap between tets.
+bool is_outside(const TetComplex &mesh, std::int32_t t, const Vec3 &p, const NearestTriangle &nearest) {
+  constexpr double slack = 2;
+  double w[4];
+  const double out = -mesh.frame(t).weights(p, w);
+  const double length2 = longest2(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2), mesh.corner(t, 3));
+  return out > 0 && nearest.nearest(p).distance <= slack * out * std::sqrt(length2);
+}
+
 /// Moves the vertices that are outside to the nearest point of the boundary, into the tet there.
 template <std::size_t m>
 void project(Job &job, Array<std::int32_t> &home, AdaptiveMesh<m> &mesh) {
@@ -245,7 +255,7 @@ void project(Job &job, Array<std::int32_t> &home, AdaptiveMesh<m> &mesh) {
   const NearestTriangle nearest(mesh.points, faces, 8, job);
   job.parallel.for_blocks(mesh.vertex_probes, block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; i++) {
-      if (home[i] >= 0) continue;
+      if (home[i] >= 0 && !is_outside(mesh, home[i], mesh.probes[i].point, nearest)) continue;
       const NearestPoint at = nearest.nearest(mesh.probes[i].point);
       home[i] = tet_of_face[std::size_t(at.triangle)];
       mesh.probes[i].point = Vec3(0);
@@ -352,7 +362,7 @@ std::int64_t place_probes(const MeshView &original, const ProbeOptions &options,
   if (options.most_inner > 0) add_inner(original, options.most_inner, job, mesh.probes);
   Array<std::int32_t> home = find_homes(job, mesh);
   const auto outside = std::count(home.begin(), home.begin() + std::ptrdiff_t(mesh.vertex_probes), -1);
-  if (options.project_outside && outside > 0) project(job, home, mesh);
+  if (options.project_outside) project(job, home, mesh);
   put_in_places(sort_by_home(0, mesh.vertex_probes, mesh, home), 0, mesh.vertex_of_probe);
   job.poll(0.2);
   sort_by_home(mesh.vertex_probes, home.size(), mesh, home);

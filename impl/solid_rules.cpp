@@ -134,7 +134,7 @@ StepConstraint keeping_volume(const SolidComplex &mesh, const SolidEdge &edge, c
       constraint.offset -= glm::dot(normal, from - mesh.point(f[0]));
       area += glm::length(normal);
     }
-  if (!(glm::length(constraint.normal) > crumpled * area)) constraint.normal = Vec3(0);
+  constraint.holds = glm::length(constraint.normal) > crumpled * area;
   return constraint;
 }
 
