@@ -123,5 +123,22 @@ TEST_F(BeyondACorner, TakesAValueBetween) {
   EXPECT_LE(largest_error(mesh, host.job).value, 0.6);
 }
 
+/// A tet's values, continued by a hair, may be others than those of the boundary there: of a sliver, or one to come.
+TEST(PlaceProbes, TakesVerticesThatAreAHairOutsideToTheBoundary) {
+  Host host;
+  const Mesh cube = kuhn_cube(1);
+  for (double hair : {1e-6, 1e-8, 1e-10, 1e-12}) {
+    Mesh original = cube;
+    original.points.push_back({0.3, 0.4, 1 + hair});
+    original.scalars.push_back(1);
+    original.tets.push_back({0, 1, 2, std::int32_t(cube.points.size())});
+    AdaptiveMesh<1> mesh(host.memory);
+    put_among(original, cube, true, host, mesh);
+    const auto at = std::find(mesh.vertex_of_probe.begin(), mesh.vertex_of_probe.end(), original.tets.back()[3]);
+    ASSERT_NE(at, mesh.vertex_of_probe.end());
+    EXPECT_LE(mesh.probes[std::size_t(at - mesh.vertex_of_probe.begin())].point.z, 1) << hair;
+  }
+}
+
 }  // namespace
 }  // namespace tetlod

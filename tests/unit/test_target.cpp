@@ -228,5 +228,57 @@ TEST_F(TargetedRun, FlaggedVerticesKeepPlaceAndValue) {
   }
 }
 
+/// Where its two sides are so near that their normals cancel around each edge of the rim.
+TEST_F(TargetedRun, KeepsTheVolumeOfAThinSlab) {
+  Mesh original = kuhn_solid({30, 30, 1}, [](const Cell &) { return true; });
+  transform(original, [](const Vec3 &p) { return Vec3(p.x, p.y, 1e-3 * p.z); });
+  set_scalars(original, [](const Vec3 &p) { return std::sin(9 * p.x) * std::cos(7 * p.y); });
+  for (std::int64_t effort : {effort_fast, effort_accurate}) {
+    collapse(effort);
+    for (double ratio : {0.5, 0.12}) {
+      options.target_ratio = ratio;
+      simplify(original);
+      expect_sound(original, 1e-3);
+      expect_size(original);
+    }
+  }
+}
+
+/// Nothing of a single cube can go, and remeshing makes no fewer of its tets.
+TEST_F(TargetedRun, NeverHasMoreTetsThanTheOriginal) {
+  Mesh original;
+  for (int i = 0; i < 20; i++) {
+    Mesh cube = kuhn_cube(1);
+    transform(cube, [&](const Vec3 &p) { return Vec3(p.x + 2 * i, p.y, 1e-6 * p.z); });
+    append(original, cube);
+  }
+  set_scalars(original, waves);
+  collapse(effort_accurate);
+  options.target_ratio = 0.1;
+  simplify(original);
+  expect_sound(original, 1e-12);
+  EXPECT_LE(mesh().tets.size(), original.tets.size());
+}
+
+/// Noise that only all of the vertices tell, where collapses lead nowhere, or insertions to more tets than there were.
+TEST_F(TargetedRun, HoldsABoundThatTakesTheWholeMesh) {
+  std::mt19937_64 random(1);
+  options.max_error = 3e-4;
+  for (double height : {1.0, 1e-7}) {
+    Mesh original = kuhn_cube(10);
+    transform(original, [&](const Vec3 &p) {
+      return Vec3((0.2 + p.x) * std::cos(1.5 * p.y), (0.2 + p.x) * std::sin(1.5 * p.y), height * p.z);
+    });
+    set_scalars(original, [&](const Vec3 &) { return std::uniform_real_distribution<double>(0, 1)(random); });
+    for (std::int64_t effort : {effort_fast, effort_accurate}) {
+      collapse(effort);
+      simplify(original);
+      expect_sound(original, 1e-3);
+      EXPECT_LE(report().max_error, options.max_error);
+      EXPECT_LE(mesh().tets.size(), original.tets.size());
+    }
+  }
+}
+
 }  // namespace
 }  // namespace tetlod
