@@ -100,7 +100,7 @@ void find_stencil(const Input &input, const Options &options, Prepared &prepared
   const bool held = prepared.holds(input, options, job);
   if (!held) {
     prepare_original(input, options, job, fresh.original);
-    extract_boundary(fresh.original.view, job, fresh.boundary);
+    extract_boundary(fresh.original.view, job, fresh.boundary, fresh.original.numbers());
   }
   const Prepared &of = held ? prepared : fresh;
   Array<Vec3> copy(&job.memory);

@@ -48,7 +48,7 @@ void add_boundary_face(const MeshView &mesh, const FaceUse &f, Found &found) {
 /// Two tets on one face are neighbours unless they are one tet given twice; more than two are an error unless enough
 /// of them are.
 void look_at_shared_face(const MeshView &mesh, std::int32_t low, const FaceUse *first, const FaceUse *last,
-                         Found &found) {
+                         const HostNumbers &numbers, Found &found) {
   std::ptrdiff_t different = last - first;
   for (const FaceUse *f = first + 1; f != last; f++)
     if (std::any_of(first, f, [&](const FaceUse &e) { return opposite(mesh, e) == opposite(mesh, *f); })) {
@@ -57,11 +57,12 @@ void look_at_shared_face(const MeshView &mesh, std::int32_t low, const FaceUse *
     }
   if (different > 2)
     fail(Status::mesh_nonmanifold,
-         "%d tets share the face of vertices %d, %d and %d (the first are tets %zu, %zu, %zu)", int(different),
-         int(low), int(first->middle), int(first->high), first->tet(), first[1].tet(), first[2].tet());
+         "%d tets share the face of vertices %lld, %lld and %lld (the first are tets %lld, %lld, %lld)", int(different),
+         numbers.vertex(low), numbers.vertex(first->middle), numbers.vertex(first->high), numbers.tet(first->tet()),
+         numbers.tet(first[1].tet()), numbers.tet(first[2].tet()));
 }
 
-Found sweep(const MeshView &mesh, Span<const std::uint8_t> excluded, Job &job) {
+Found sweep(const MeshView &mesh, Span<const std::uint8_t> excluded, const HostNumbers &numbers, Job &job) {
   const FaceSweep faces(mesh, excluded, job);
   Array<Found> chunks(&job.memory);
   for (std::size_t c = 0; c < faces.chunks(); c++) chunks.emplace_back(job.memory);
@@ -69,7 +70,7 @@ Found sweep(const MeshView &mesh, Span<const std::uint8_t> excluded, Job &job) {
     if (last - first == 1)
       add_boundary_face(mesh, *first, chunks[chunk]);
     else if (last - first > 2 || opposite(mesh, first[0]) == opposite(mesh, first[1]))
-      look_at_shared_face(mesh, low, first, last, chunks[chunk]);
+      look_at_shared_face(mesh, low, first, last, numbers, chunks[chunk]);
   });
   Found all = std::move(chunks[0]);
   for (std::size_t c = 1; c < chunks.size(); c++) {
@@ -109,11 +110,11 @@ void find_interior(const MeshView &mesh, Span<const std::uint8_t> excluded, Job 
 
 }  // namespace
 
-void extract_boundary(const MeshView &mesh, Job &job, Boundary &boundary) {
+void extract_boundary(const MeshView &mesh, Job &job, Boundary &boundary, const HostNumbers &numbers) {
   Array<std::uint8_t> &excluded = boundary.excluded;
   excluded.clear();
   for (;;) {
-    Found found = sweep(mesh, excluded, job);
+    Found found = sweep(mesh, excluded, numbers, job);
     const std::int64_t duplicate = exclude(found.duplicate, mesh.tets.size(), excluded);
     const std::int64_t flat = exclude(found.flat, mesh.tets.size(), excluded);
     boundary.duplicate_tets += duplicate;

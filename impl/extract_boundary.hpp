@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 
+#include "host_numbers.hpp"
 #include "job.hpp"
 #include "mesh.hpp"
 
@@ -19,7 +20,8 @@ struct Boundary {
 };
 
 /// Throws Status::mesh_nonmanifold for a face with more than two tets, mesh_degenerate when no tet has a volume.
-void extract_boundary(const MeshView &mesh, Job &job, Boundary &boundary);
+/// numbers: of the mesh's tets.
+void extract_boundary(const MeshView &mesh, Job &job, Boundary &boundary, const HostNumbers &numbers = {});
 
 /// The triangles with points of their own, numbered by first use.
 void make_surface(const MeshView &mesh, Span<const Triangle> triangles, Job &job, Surface &surface);

@@ -237,7 +237,7 @@ class Pipeline {
 
   void extract() {
     const StageTimer timer(Stage::boundary, job_, report_);
-    if (!report_.reused_tets) extract_boundary(original_.view, job_, boundary_);
+    if (!report_.reused_tets) extract_boundary(original_.view, job_, boundary_, original_.numbers());
     prepared_.complete();
     report_.dropped_tets += boundary_.flat_tets + boundary_.duplicate_tets;
     report_.unused_points = boundary_.unused_points - report_.merged_points - report_.nonfinite_points;

@@ -292,6 +292,7 @@ int extreme_exponent(const Box &box) {
 
 void prepare_original(const Input &input, const Options &options, Job &job, Original &original) {
   check_counts(input);
+  original.index_base = input.index_base;
   original.view.points = read_points(input, job, original.points);
   read_values(input, job, original);
   original.view.tets = read_tets(input, job, original.tets);

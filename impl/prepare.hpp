@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 
+#include "host_numbers.hpp"
 #include "job.hpp"
 #include "mesh.hpp"
 #include "pipeline.hpp"
@@ -22,10 +23,13 @@ struct Original {
   std::int64_t merged_points = 0;     ///< coincident points that became one
   std::int64_t nonfinite_points = 0;  ///< without a finite value, ignored with their tets
   std::int64_t dropped_tets = 0;      ///< with such a point, or with a repeated vertex, as submitted or after merging
+  std::int32_t index_base = 0;        ///< as submitted
   int exponent = 0;                   ///< the view's coordinates are the caller's divided by 2^exponent
   double scalar_min = 0, scalar_max = 0;  ///< over the vertices that tets use
   double range = 0;  ///< of the scalars; where they are constant and another field is not, something in its place
   Box box;           ///< of the vertices that tets use
+
+  HostNumbers numbers() const { return {index_base, {}, tet_number}; }
 };
 
 /// The power of two that coordinates in this box have to be divided by, so that products of six lengths stay in the

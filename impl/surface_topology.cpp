@@ -13,8 +13,9 @@ constexpr int next(int k) { return k == 2 ? 0 : k + 1; }
 
 class TopologyFinder {
  public:
-  TopologyFinder(Span<const Vec3> points, Span<const Triangle> triangles, Job &job, SurfaceTopology &out)
-      : points_(points), triangles_(triangles), job_(job), out_(out) {}
+  TopologyFinder(Span<const Vec3> points, Span<const Triangle> triangles, const HostNumbers &numbers, Job &job,
+                 SurfaceTopology &out)
+      : points_(points), triangles_(triangles), numbers_(numbers), job_(job), out_(out) {}
 
   void find() {
     sort_half_edges();
@@ -74,8 +75,8 @@ class TopologyFinder {
       return;
     }
     if ((end - begin) % 2)
-      fail(Status::mesh_nonmanifold, "%zu boundary faces meet at the edge from vertex %d to vertex %d", end - begin,
-           int(low_end(sorted_[begin].id)), int(sorted_[begin].high));
+      fail(Status::mesh_nonmanifold, "%zu boundary faces meet at the edge from vertex %lld to vertex %lld", end - begin,
+           numbers_.vertex(low_end(sorted_[begin].id)), numbers_.vertex(sorted_[begin].high));
     out_.nonmanifold_edges++;
     out_.touching[std::size_t(low_end(sorted_[begin].id))] = 1;
     out_.touching[std::size_t(sorted_[begin].high)] = 1;
@@ -91,8 +92,8 @@ class TopologyFinder {
 
   void pair(std::int32_t a, std::int32_t b) {
     if (from(a) == from(b) || a == b)
-      fail(Status::mesh_intersecting, "the solid overlaps itself at the boundary edge from vertex %d to vertex %d",
-           int(low_end(a)), int(std::max(from(a), to(a))));
+      fail(Status::mesh_intersecting, "the solid overlaps itself at the boundary edge from vertex %lld to vertex %lld",
+           numbers_.vertex(low_end(a)), numbers_.vertex(std::max(from(a), to(a))));
     out_.mate[std::size_t(a)] = b;
     out_.mate[std::size_t(b)] = a;
   }
@@ -171,6 +172,7 @@ class TopologyFinder {
 
   Span<const Vec3> points_;
   Span<const Triangle> triangles_;
+  const HostNumbers &numbers_;
   Job &job_;
   SurfaceTopology &out_;
   Array<std::int32_t> begin_{&job_.memory};
@@ -179,8 +181,9 @@ class TopologyFinder {
 
 }  // namespace
 
-void find_topology(Span<const Vec3> points, Span<const Triangle> triangles, Job &job, SurfaceTopology &topology) {
-  TopologyFinder(points, triangles, job, topology).find();
+void find_topology(Span<const Vec3> points, Span<const Triangle> triangles, Job &job, SurfaceTopology &topology,
+                   const HostNumbers &numbers) {
+  TopologyFinder(points, triangles, numbers, job, topology).find();
 }
 
 }  // namespace tetlod

@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 
+#include "host_numbers.hpp"
 #include "job.hpp"
 #include "mesh.hpp"
 
@@ -28,6 +29,8 @@ struct SurfaceTopology {
 
 /// At an edge with more than two triangles those that bound the same wedge of material are mates.
 /// Throws Status::mesh_intersecting where the triangles around an edge do not bound wedges: the solid overlaps itself.
-void find_topology(Span<const Vec3> points, Span<const Triangle> triangles, Job &job, SurfaceTopology &topology);
+/// numbers: of the points.
+void find_topology(Span<const Vec3> points, Span<const Triangle> triangles, Job &job, SurfaceTopology &topology,
+                   const HostNumbers &numbers = {});
 
 }  // namespace tetlod

@@ -207,11 +207,11 @@ class Inspector {
     const MeshView mesh{points_, values_, tets_};
     try {
       Boundary boundary(job_.memory);
-      extract_boundary(mesh, job_, boundary);
+      extract_boundary(mesh, job_, boundary, {base_, {}, number_});
       Surface surface(job_.memory);
       make_surface(mesh, boundary.triangles, job_, surface);
       SurfaceTopology topology(job_.memory);
-      find_topology(surface.points, surface.triangles, job_, topology);
+      find_topology(surface.points, surface.triangles, job_, topology, {base_, surface.origin, {}});
       found_.components = topology.components;
       found_.nonmanifold_edges = {topology.nonmanifold_edges, -1};
       found_.nonmanifold_points = {topology.nonmanifold_points, -1};
@@ -276,11 +276,11 @@ Error verdict_on(const Input &input, const Options &options, Job &job) {
     Original original(job.memory);
     prepare_original(input, options, job, original);
     Boundary boundary(job.memory);
-    extract_boundary(original.view, job, boundary);
+    extract_boundary(original.view, job, boundary, original.numbers());
     Surface surface(job.memory);
     make_surface(original.view, boundary.triangles, job, surface);
     SurfaceTopology topology(job.memory);
-    find_topology(surface.points, surface.triangles, job, topology);
+    find_topology(surface.points, surface.triangles, job, topology, {original.index_base, surface.origin, {}});
     refuse_crossing(surface, input.index_base, job);
   } catch (const Error &error) {
     if (!blames_the_mesh(error)) throw;

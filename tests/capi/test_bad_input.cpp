@@ -154,6 +154,42 @@ TEST_P(BadInputs, HaveAStatusAndLeaveTheContextWhole) {
   EXPECT_EQ(bytes_of(context.get()), before) << "the next run is fine";
 }
 
+std::string told(const Cube &cube, std::int32_t index_base, tetlod_status status) {
+  const Context context = make_context();
+  const tetlod_array points = array_of(TETLOD_FLOAT64, cube.values.size(), 3, cube.xyz.data()),
+                     tets = array_of(TETLOD_INT32, cube.corners.size() / 4, 4, cube.corners.data()),
+                     values = array_of(TETLOD_FLOAT64, cube.values.size(), 1, cube.values.data());
+  EXPECT_EQ(tetlod_submit_points(context.get(), &points), TETLOD_OK);
+  EXPECT_EQ(tetlod_submit_tets(context.get(), &tets, index_base), TETLOD_OK);
+  EXPECT_EQ(tetlod_submit_scalars(context.get(), "values", &values), TETLOD_OK);
+  EXPECT_EQ(tetlod_run(context.get()), status);
+  return message_of(context.get());
+}
+
+/// Points that no tet uses, and a tet that is dropped, come before.
+TEST(Messages, NameVerticesAndTetsAsTheHostDoes) {
+  Cube fan = nothing(9);
+  for (std::size_t v = 0; v < 9; v++) {
+    fan.xyz[3 * v] = v == 4;
+    fan.xyz[3 * v + 1] = v == 5;
+    fan.xyz[3 * v + 2] = v > 5 ? double(v) : 0;
+    fan.values[v] = double(v);
+  }
+  fan.corners = {3, 3, 4, 5, 3, 4, 5, 6, 3, 4, 5, 7, 3, 4, 5, 8};
+  EXPECT_NE(told(fan, 0, TETLOD_ERR_MESH_NONMANIFOLD).find("vertices 3, 4 and 5 (the first are tets 1, 2, 3)"),
+            std::string::npos);
+  for (std::int32_t &v : fan.corners) v++;
+  EXPECT_NE(told(fan, 1, TETLOD_ERR_MESH_NONMANIFOLD).find("vertices 4, 5 and 6 (the first are tets 2, 3, 4)"),
+            std::string::npos);
+
+  // Two tets on the same side of the edge 7, 8, whose faces interleave there.
+  Cube wedges = nothing(13);
+  const double places[][3] = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {1, 0.5, 0}, {-1, 1, 0}};
+  for (std::size_t v = 0; v < 6; v++) std::copy(places[v], places[v] + 3, &wedges.xyz[3 * (v + 7)]);
+  wedges.corners = {7, 8, 9, 10, 7, 8, 11, 12};
+  EXPECT_NE(told(wedges, 0, TETLOD_ERR_MESH_INTERSECTING).find("edge from vertex 7 to vertex 8"), std::string::npos);
+}
+
 INSTANTIATE_TEST_SUITE_P(Each, BadInputs, testing::ValuesIn(inputs),
                          [](const auto &info) { return std::string(info.param.name); });
 
