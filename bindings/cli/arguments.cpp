@@ -109,10 +109,12 @@ void add_options(CLI::App &app, Arguments &arguments) {
     for (const std::string &field : fields) arguments.steer.push_back(weighted_name(field));
   };
   app.add_option_function<std::vector<std::string>>("--steer", steer,
-                                                    "further point data that steers, its errors times WEIGHT [1]")
+                                                    "further point data that steers, its errors times WEIGHT [1]; a "
+                                                    "field that is named x:1 is x:1:1")
       ->type_name("NAME[:WEIGHT]")
       ->expected(1)
-      ->take_all();
+      ->take_all()
+      ->allow_extra_args(false);  // what follows is INPUT or OUTPUT
   const auto preset = [&arguments](const std::string &name) { arguments.preset = preset_named(name); };
   app.add_option_function<std::string>("--preset", preset, "sets the other options: paper, fast, accurate")
       ->type_name("NAME");

@@ -70,6 +70,24 @@ TEST_F(Report, NamesTheFieldsThatSteer) {
   EXPECT_EQ(json["steering"], Json::object());
 }
 
+TEST_F(Report, SteeringFieldsMayStandAnywhere) {
+  const std::string in = folder / "in.vtk", out = folder / "out.vtu", report = folder / "report.json";
+  const std::string first = "other:2", last = "other:0.5";  // of a field given twice the last weight counts
+  write_cube(in, {});
+  const std::vector<std::string> orders[] = {{"--steer", first, "--steer", last, in, out},
+                                             {"--steer", first, in, "--steer", last, out},
+                                             {in, "--steer", first, out, "--steer", last},
+                                             {in, out, "--steer", first, "--steer", last}};
+  for (std::vector<std::string> words : orders) {
+    words.insert(words.end(), {"--report", report});
+    const Outcome outcome = run_tool(words);
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    std::ifstream file(report);
+    EXPECT_EQ(Json::parse(file, nullptr, false)["steering"], Json({{"other", 0.5}}));
+    std::filesystem::remove(report);
+  }
+}
+
 TEST_F(Report, TableIsPrintedUnlessQuiet) {
   const Outcome loud = run(), quiet = run({"--quiet"});
   for (const char *row : {"Steiner points", "selected samples", "reading mesh", "CDT", "total (real)", "MB", "RMS"}) {
