@@ -59,13 +59,21 @@ std::string help_of(const NumberOption &option, const tetlod_bounds &bounds) {
   return text.str();
 }
 
+// Compared as an integer: a double would round what is just beyond 2^53 into the bounds.
+double within(const std::string &flag, int64_t value, const tetlod_bounds &bounds) {
+  const auto least = static_cast<int64_t>(bounds.least), most = static_cast<int64_t>(bounds.most);
+  if (least <= value && value <= most) return static_cast<double>(value);
+  throw CLI::ValidationError(
+      flag, std::to_string(value) + " is not in [" + std::to_string(least) + ", " + std::to_string(most) + "]");
+}
+
 void add_number(CLI::App &app, const NumberOption &option, Arguments &arguments) {
   const int32_t number = tetlod_option_from_name(option.name);
   const tetlod_bounds bounds = bounds_of(number);
   const std::string flag = std::string("--") + option.name, help = help_of(option, bounds);
   if (bounds.is_integer != 0) {
-    const auto store = [number, &arguments](const int64_t &value) {
-      arguments.numbers[number] = static_cast<double>(value);
+    const auto store = [number, flag, bounds, &arguments](const int64_t &value) {
+      arguments.numbers[number] = within(flag, value, bounds);
     };
     app.add_option_function<int64_t>(flag, store, help)->type_name("N");
   } else {

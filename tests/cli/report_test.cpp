@@ -55,6 +55,8 @@ TEST_F(Report, OptionsAreThoseInEffect) {
   EXPECT_EQ(json["options"]["lambda"], 0.3) << "what is typed goes before the preset, wherever it stands";
   EXPECT_EQ(json["options"]["seed"], 7);
   EXPECT_NE(json["command"].get<std::string>().find("--rho 0.02"), std::string::npos);
+  ASSERT_EQ(run({"--seed", "9007199254740992"}).status, 0) << "the largest that there is";
+  EXPECT_EQ(json["options"]["seed"], 9007199254740992);
 }
 
 TEST_F(Report, NamesTheFieldsThatSteer) {

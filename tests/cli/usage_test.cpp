@@ -52,6 +52,8 @@ TEST_F(Usage, WrongCommandLines) {
   expect_failure(run_tool({in, out, "--sigma", "1e9"}), 2, "sigma");
   expect_failure(run_tool({in, out, "--threads", "-3"}), 2, "threads");
   expect_failure(run_tool({in, out, "--threads", "1.5"}), 2, "--threads");
+  for (const char *seed : {"-1", "9007199254740993", "9223372036854775807", "9223372036854775808"})
+    expect_failure(run_tool({in, out, "--seed", seed}), 2, "--seed");
   expect_failure(run_tool({in, out, "--preset", "none-such"}), 2, "none-such");
   expect_failure(run_tool({in, out, "--steer", "other:-1"}), 2, "field other: weight -1");
   expect_failure(run_tool({in, out, "--steer", "other:nan"}), 2, "field other: weight nan");
