@@ -23,7 +23,7 @@ std::string temporary_name(const std::string &path) {
 }  // namespace
 
 OutputFile::OutputFile(const std::string &path) : path_(path), temporary_(temporary_name(path)) {
-  if (std::filesystem::is_directory(path_)) throw Failure(path_ + ": is a directory");
+  require_file_or_nothing(path_);
   if (!std::ofstream(temporary_, std::ios::binary))
     throw Failure(path_ + ": cannot be written: " + std::strerror(errno));
   std::remove(temporary_.c_str());
@@ -35,6 +35,13 @@ void OutputFile::keep() {
   std::error_code error;
   std::filesystem::rename(temporary_, path_, error);
   if (error) throw Failure(path_ + ": cannot be written: " + error.message());
+}
+
+void require_file_or_nothing(const std::string &path) {
+  std::error_code ignored;  // opening the file tells
+  const auto status = std::filesystem::status(path, ignored);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    throw Failure(path + ": is not a file");
 }
 
 std::string file_ending(const std::string &path) {

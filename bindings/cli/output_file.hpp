@@ -22,6 +22,9 @@ class OutputFile {
   std::string path_, temporary_;
 };
 
+// Throws Failure for a folder, a pipe, a device: opening one may block, and renaming onto it would replace it.
+void require_file_or_nothing(const std::string &path);
+
 // ".vtu" of "a/b.VTU"; empty when there is none.
 std::string file_ending(const std::string &path);
 

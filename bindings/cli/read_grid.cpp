@@ -6,7 +6,6 @@
 
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 
 #include "failure.hpp"
@@ -18,8 +17,8 @@ namespace {
 using Grid = vtkSmartPointer<vtkUnstructuredGrid>;
 
 void check_readable(const std::string &path) {
+  require_file_or_nothing(path);
   if (!std::ifstream(path)) throw Failure(path + ": cannot be read: " + std::strerror(errno));
-  if (!std::filesystem::is_regular_file(path)) throw Failure(path + ": is not a file");
 }
 
 template <class Reader>

@@ -62,6 +62,11 @@ void interrupt(pid_t child) {
   kill(child, SIGINT);  // not waited for yet, so the number is still its own
 }
 
+void end_after_a_minute(pid_t child) {
+  for (int hundredths = 0; hundredths < 6000 && !has_ended(child); hundredths++) usleep(10000);
+  if (!has_ended(child)) kill(child, SIGKILL);
+}
+
 template <class Meanwhile>
 Outcome run_and(const std::vector<std::string> &arguments, const Meanwhile &meanwhile) {
   const Folder folder;
@@ -81,6 +86,10 @@ Outcome run_and(const std::vector<std::string> &arguments, const Meanwhile &mean
 
 Outcome run_tool(const std::vector<std::string> &arguments) {
   return run_and(arguments, [](pid_t) {});
+}
+
+Outcome run_tool_for_a_minute(const std::vector<std::string> &arguments) {
+  return run_and(arguments, end_after_a_minute);
 }
 
 Outcome interrupt_tool(const std::vector<std::string> &arguments) { return run_and(arguments, interrupt); }

@@ -15,6 +15,9 @@ struct Outcome {
 // Arguments are passed as they are, no shell between. The tool's stdout and stderr are files, not terminals.
 Outcome run_tool(const std::vector<std::string> &arguments);
 
+// The same, killed after a minute: for what might wait for ever.
+Outcome run_tool_for_a_minute(const std::vector<std::string> &arguments);
+
 // The same, interrupted (SIGINT) as soon as the tool is ready for that.
 Outcome interrupt_tool(const std::vector<std::string> &arguments);
 

@@ -1,6 +1,7 @@
 // Wrong usage ends with status 2, everything else that fails with 1; either way one line on stderr, nothing on stdout
 // and no file.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <fstream>
 
@@ -87,6 +88,18 @@ TEST_F(Usage, FilesThatCannotBeWritten) {
   expect_failure(run_tool({in, folder / "no/such/out.vtu"}), 1, "out.vtu");
   expect_failure(run_tool({in, folder / "out.vtu", "--report", folder / "no/such/r.json"}), 1, "r.json");
   expect_only_input();
+}
+
+// Opening a pipe would wait for the other side, and a result would take the pipe's place.
+TEST_F(Usage, PipesAreNoFiles) {
+  const std::string in = folder / "in.vtk", out = folder / "out.vtu", pipe = folder / "pipe.vtu";
+  write_cube(in, {});
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  expect_failure(run_tool_for_a_minute({pipe, out}), 1, "pipe.vtu: is not a file");
+  expect_failure(run_tool({in, pipe}), 1, "pipe.vtu: is not a file");
+  expect_failure(run_tool({in, out, "--report", pipe}), 1, "pipe.vtu: is not a file");
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+  EXPECT_FALSE(std::filesystem::exists(out));
 }
 
 TEST_F(Usage, AFieldThatIsNotThere) {
