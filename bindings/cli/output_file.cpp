@@ -13,16 +13,26 @@
 namespace cli {
 namespace {
 
-// The process number keeps runs side by side apart.
-std::string temporary_name(const std::string &path) {
-  const std::filesystem::path whole(path);
-  const std::string name = "." + whole.stem().string() + "." + std::to_string(getpid());
-  return (whole.parent_path() / (name + whole.extension().string())).string();
+using Path = std::filesystem::path;
+
+// What a path names after at most so many links, there or not yet.
+Path target_of(const Path &path, int links = 40) {
+  std::error_code not_a_link;
+  const Path link = std::filesystem::read_symlink(path, not_a_link);
+  if (not_a_link || links == 0) return path;
+  return target_of(path.parent_path() / link, links - 1);
+}
+
+// The process number keeps runs side by side apart. It ends as the path does, which a link's target may not.
+Path temporary_name(const Path &path, const Path &target) {
+  const std::string name = "." + target.filename().string() + "." + std::to_string(getpid());
+  return target.parent_path() / (name + path.extension().string());
 }
 
 }  // namespace
 
-OutputFile::OutputFile(const std::string &path) : path_(path), temporary_(temporary_name(path)) {
+OutputFile::OutputFile(const std::string &path)
+    : path_(path), target_(target_of(path).string()), temporary_(temporary_name(path, target_).string()) {
   require_file_or_nothing(path_);
   if (!std::ofstream(temporary_, std::ios::binary))
     throw Failure(path_ + ": cannot be written: " + std::strerror(errno));
@@ -33,7 +43,7 @@ OutputFile::~OutputFile() { std::remove(temporary_.c_str()); }
 
 void OutputFile::keep() {
   std::error_code error;
-  std::filesystem::rename(temporary_, path_, error);
+  std::filesystem::rename(temporary_, target_, error);
   if (error) throw Failure(path_ + ": cannot be written: " + error.message());
 }
 

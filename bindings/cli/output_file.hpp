@@ -1,4 +1,5 @@
-// A file that appears whole or not at all: written under another name beside it, then renamed.
+// A file that appears whole or not at all: written under another name beside it, then renamed. Where the path is a link,
+// its target is that file.
 #pragma once
 
 #include <string>
@@ -19,7 +20,7 @@ class OutputFile {
   void keep();
 
  private:
-  std::string path_, temporary_;
+  std::string path_, target_, temporary_;
 };
 
 // Throws Failure for a folder, a pipe, a device: opening one may block, and renaming onto it would replace it.

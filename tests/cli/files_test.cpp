@@ -2,6 +2,7 @@
 // only, and a split that did not fit would leave more boundary triangles than the cube's sides have.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -159,6 +160,21 @@ TEST_F(Files, PartitionedFilesAreOneMesh) {
   expect_linear_field_kept(report);
   EXPECT_EQ(report["merged_points"], row * row);
   EXPECT_EQ(report["components"], 1);
+}
+
+// A link into another folder, with or without a file at its end, stays a link.
+TEST_F(Files, AResultIsWrittenWhereALinkLeads) {
+  namespace fs = std::filesystem;
+  fs::create_directory(folder / "far");
+  fs::create_symlink("far/out.vtu", folder / "near.vtu");
+  fs::create_symlink("near.vtu", folder / "out.vtu");
+  for (const char *before : {"", "an older result"}) {
+    if (*before != 0) std::ofstream(folder / "far/out.vtu") << before;
+    expect_linear_field_kept(run_on({}));
+    EXPECT_TRUE(fs::is_symlink(folder / "out.vtu") && fs::is_symlink(folder / "near.vtu"));
+    expect_in(contents_of(folder / "far/out.vtu"), "<VTKFile");
+  }
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{"far", "in.vtk", "near.vtu", "out.vtu", "report.json"}));
 }
 
 TEST_F(Files, NothingIsLeftBesideTheResult) {
