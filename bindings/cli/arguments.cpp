@@ -1,6 +1,7 @@
 #include "arguments.hpp"
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <iostream>
 #include <vector>
 
@@ -148,6 +149,27 @@ void check_endings(const Arguments &arguments) {
   if (out != ".vtu" && out != ".vtk") throw Failure(arguments.output + ": not a .vtu or .vtk file", kWrongUsage);
 }
 
+// Pictures are known by their ending, so that further ones are among them.
+bool is_picture(const std::string &path, const std::string &folder) {
+  const std::filesystem::path there = std::filesystem::path(folder) / std::filesystem::path(path).filename();
+  const std::string ending = file_ending(path);
+  return !folder.empty() && (ending == ".png" || ending == ".html") && same_file(path, there.string());
+}
+
+// What the report would overwrite; empty: nothing.
+std::string overwritten_by_report(const Arguments &arguments) {
+  const std::string &report = arguments.report;
+  if (same_file(report, arguments.input)) return "INPUT";
+  if (same_file(report, arguments.output)) return "OUTPUT";
+  return is_picture(report, arguments.pictures) ? "one of the pictures" : "";
+}
+
+void check_report(const Arguments &arguments) {
+  if (arguments.report.empty()) return;
+  const std::string lost = overwritten_by_report(arguments);
+  if (!lost.empty()) throw Failure(arguments.report + ": --report would overwrite " + lost, kWrongUsage);
+}
+
 }  // namespace
 
 std::optional<Arguments> parse_arguments(int argc, char **argv) {
@@ -165,6 +187,7 @@ std::optional<Arguments> parse_arguments(int argc, char **argv) {
     throw Failure(std::string(error.what()) + " (see tetlod --help)", kWrongUsage);
   }
   check_endings(arguments);
+  check_report(arguments);
   return arguments;
 }
 

@@ -54,6 +54,15 @@ void require_file_or_nothing(const std::string &path) {
     throw Failure(path + ": is not a file");
 }
 
+bool same_file(const std::string &a, const std::string &b) {
+  const auto whole = [](const std::string &path) {
+    std::error_code error;
+    const Path plain = std::filesystem::weakly_canonical(std::filesystem::absolute(target_of(path)), error);
+    return error ? Path(path) : plain;
+  };
+  return whole(a) == whole(b);
+}
+
 std::string file_ending(const std::string &path) {
   std::string ending = std::filesystem::path(path).extension().string();
   for (char &c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));

@@ -26,6 +26,9 @@ class OutputFile {
 // Throws Failure for a folder, a pipe, a device: opening one may block, and renaming onto it would replace it.
 void require_file_or_nothing(const std::string &path);
 
+// Whether two paths, however spelled, name one file, there or not yet.
+bool same_file(const std::string &a, const std::string &b);
+
 // ".vtu" of "a/b.VTU"; empty when there is none.
 std::string file_ending(const std::string &path);
 

@@ -90,6 +90,23 @@ TEST_F(Usage, FilesThatCannotBeWritten) {
   expect_only_input();
 }
 
+// However it is spelled, and before INPUT is looked at.
+TEST_F(Usage, AReportDoesNotOverwriteTheRunsOtherFiles) {
+  const std::string in = folder / "in.vtk", out = folder / "out.vtu";
+  write_cube(in, {});
+  const std::string whole = contents_of(in);
+  std::filesystem::create_symlink("out.vtu", folder / "link");
+  for (const char *report : {"out.vtu", "./out.vtu", "no/../out.vtu", "link"})
+    expect_failure(run_tool({in, out, "--report", folder / report}), 2, "overwrite OUTPUT");
+  expect_failure(run_tool({in, out, "--report", std::filesystem::relative(out)}), 2, "overwrite OUTPUT");
+  expect_failure(run_tool({in, out, "--report", folder / "./in.vtk"}), 2, "overwrite INPUT");
+  for (const char *report : {"pictures/report.html", "pictures/volume-dark.png"})
+    expect_failure(run_tool({in, out, "--pictures", folder / "pictures", "--report", folder / report}), 2,
+                   "overwrite one of the pictures");
+  EXPECT_EQ(contents_of(in), whole);
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{"in.vtk", "link"}));
+}
+
 // Opening a pipe would wait for the other side, and a result would take the pipe's place.
 TEST_F(Usage, PipesAreNoFiles) {
   const std::string in = folder / "in.vtk", out = folder / "out.vtu", pipe = folder / "pipe.vtu";
