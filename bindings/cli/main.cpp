@@ -58,7 +58,7 @@ void run(const Arguments &arguments) {
   vtkUnstructuredGrid *simplified = simplify(*filter, original, arguments, bar, *messages, notes);
   seconds.measuring = filter->GetSecondsOfMeasuring();
   watch.lap();
-  write_grid(result.temporary(), simplified, *messages, notes);
+  write_grid(result, simplified, *messages, notes);
   seconds.writing = watch.lap();
   stop_if_interrupted();
   const std::string field = simplified->GetPointData()->GetScalars()->GetName();
@@ -66,7 +66,7 @@ void run(const Arguments &arguments) {
     bar.show("pictures", 0.0);
     write_pictures(arguments, original, simplified, field, *filter, seconds);
   }
-  if (report) write_report(report->temporary(), arguments, field, *filter, seconds);
+  if (report) write_report(*report, arguments, field, *filter, seconds);
   result.keep();
   if (report) report->keep();
   bar.clear();
@@ -86,6 +86,7 @@ int main(int argc, char **argv) {
   using namespace cli;
   try {
     watch_interrupts();
+    report_full_files();
     const std::optional<Arguments> arguments = parse_arguments(argc, argv);
     if (arguments) run(*arguments);
     return kDone;

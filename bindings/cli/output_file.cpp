@@ -4,6 +4,7 @@
 
 #include <cctype>
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -34,8 +35,7 @@ Path temporary_name(const Path &path, const Path &target) {
 OutputFile::OutputFile(const std::string &path)
     : path_(path), target_(target_of(path).string()), temporary_(temporary_name(path, target_).string()) {
   require_file_or_nothing(path_);
-  if (!std::ofstream(temporary_, std::ios::binary))
-    throw Failure(path_ + ": cannot be written: " + std::strerror(errno));
+  if (!std::ofstream(temporary_, std::ios::binary)) fail(std::strerror(errno));
   std::remove(temporary_.c_str());
 }
 
@@ -44,8 +44,17 @@ OutputFile::~OutputFile() { std::remove(temporary_.c_str()); }
 void OutputFile::keep() {
   std::error_code error;
   std::filesystem::rename(temporary_, target_, error);
-  if (error) throw Failure(path_ + ": cannot be written: " + error.message());
+  if (error) fail(error.message());
 }
+
+void OutputFile::write(const std::string &bytes) const {
+  std::ofstream stream(temporary_, std::ios::binary);
+  stream << bytes;
+  stream.close();
+  if (!stream) fail(std::strerror(errno));
+}
+
+void OutputFile::fail(const std::string &reason) const { throw Failure(path_ + ": cannot be written: " + reason); }
 
 void require_file_or_nothing(const std::string &path) {
   std::error_code ignored;  // opening the file tells
@@ -53,6 +62,8 @@ void require_file_or_nothing(const std::string &path) {
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
     throw Failure(path + ": is not a file");
 }
+
+void report_full_files() { std::signal(SIGXFSZ, SIG_IGN); }
 
 bool same_file(const std::string &a, const std::string &b) {
   const auto whole = [](const std::string &path) {

@@ -1,5 +1,5 @@
-// A file that appears whole or not at all: written under another name beside it, then renamed. Where the path is a link,
-// its target is that file.
+// A file that appears whole or not at all: written under another name beside it, then renamed. Where the path is a
+// link, its target is that file.
 #pragma once
 
 #include <string>
@@ -14,10 +14,16 @@ class OutputFile {
   OutputFile(const OutputFile &) = delete;
   OutputFile &operator=(const OutputFile &) = delete;
 
+  // As it was asked for.
+  const std::string &path() const { return path_; }
   // Where to write; ends as the path does.
   const std::string &temporary() const { return temporary_; }
+  // Writes all that is to be in the file. Throws Failure.
+  void write(const std::string &bytes) const;
   // Gives the file its name. Throws Failure.
   void keep();
+  // Throws Failure: the path cannot be written, and why.
+  [[noreturn]] void fail(const std::string &reason) const;
 
  private:
   std::string path_, target_, temporary_;
@@ -25,6 +31,9 @@ class OutputFile {
 
 // Throws Failure for a folder, a pipe, a device: opening one may block, and renaming onto it would replace it.
 void require_file_or_nothing(const std::string &path);
+
+// From here on a write beyond a limit of files' sizes fails as on a full disk; the signal would end the process.
+void report_full_files();
 
 // Whether two paths, however spelled, name one file, there or not yet.
 bool same_file(const std::string &a, const std::string &b);

@@ -2,7 +2,6 @@
 
 #include <cinttypes>
 #include <cstdio>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "failure.hpp"
@@ -102,7 +101,7 @@ tetlod_run_report run_report(const tetlod_context *context) {
   return run;
 }
 
-void write_report(const std::string &path, const Arguments &arguments, const std::string &field,
+void write_report(const OutputFile &file, const Arguments &arguments, const std::string &field,
                   const vtkTetlodSimplify &filter, const ToolSeconds &seconds) {
   const tetlod_context *context = filter.GetContext();
   const tetlod_run_report run = run_report(context);
@@ -121,11 +120,8 @@ void write_report(const std::string &path, const Arguments &arguments, const std
   put_resources(json, run);
   json["error"] = error_json(filter.GetErrorReport());
   json["seconds"] = seconds_json(run, seconds);
-  std::ofstream file(path);
   // File names are bytes; what is not UTF-8 in them is replaced instead of thrown about.
-  file << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
-  file.close();
-  if (!file) throw Failure(path + ": cannot be written");
+  file.write(json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
 }
 
 }  // namespace cli

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "arguments.hpp"
+#include "output_file.hpp"
 #include "simplify.hpp"
 
 namespace cli {
@@ -16,7 +17,7 @@ struct ToolSeconds {
 // The counts of the last run. Throws Failure.
 tetlod_run_report run_report(const tetlod_context *context);
 
-void write_report(const std::string &path, const Arguments &arguments, const std::string &field,
+void write_report(const OutputFile &file, const Arguments &arguments, const std::string &field,
                   const vtkTetlodSimplify &filter, const ToolSeconds &seconds);
 
 }  // namespace cli

@@ -1,41 +1,57 @@
 #include "write_grid.hpp"
 
+#include <vtkErrorCode.h>
 #include <vtkNew.h>
 #include <vtkUnstructuredGridWriter.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
-#include "failure.hpp"
-#include "output_file.hpp"
+#include <cerrno>
+#include <cstring>
 
 namespace cli {
 namespace {
 
-bool write_xml(const std::string &path, vtkUnstructuredGrid *grid) {
+// VTK takes every write that failed for a full disk; the system knows better.
+std::string reason_of(int system_error, unsigned long code) {
+  return system_error != 0 ? std::strerror(system_error) : vtkErrorCode::GetStringFromErrorCode(code);
+}
+
+// The writers call some failures a success, but leave their code.
+template <class Writer>
+void write_with(Writer &writer, const OutputFile &file, vtkUnstructuredGrid *grid) {
+  writer.SetFileName(file.temporary().c_str());
+  writer.SetInputData(grid);
+  errno = 0;
+  const bool written = writer.Write() == 1;
+  const int system_error = errno;
+  const unsigned long code = writer.GetErrorCode();
+  if (!written || code != vtkErrorCode::NoError) file.fail(reason_of(system_error, code));
+}
+
+void write_xml(const OutputFile &file, vtkUnstructuredGrid *grid) {
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
-  writer->SetFileName(path.c_str());
-  writer->SetInputData(grid);
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOff();
-  return writer->Write() == 1;
+  write_with(*writer, file, grid);
 }
 
 // Version 4.2 is what every reader of the format knows.
-bool write_legacy(const std::string &path, vtkUnstructuredGrid *grid) {
+void write_legacy(const OutputFile &file, vtkUnstructuredGrid *grid) {
   vtkNew<vtkUnstructuredGridWriter> writer;
-  writer->SetFileName(path.c_str());
-  writer->SetInputData(grid);
   writer->SetFileTypeToBinary();
   writer->SetFileVersion(vtkUnstructuredGridWriter::VTK_LEGACY_READER_VERSION_4_2);
-  return writer->Write() == 1;
+  write_with(*writer, file, grid);
 }
 
 }  // namespace
 
-void write_grid(const std::string &path, vtkUnstructuredGrid *grid, VtkMessages &messages,
+void write_grid(const OutputFile &file, vtkUnstructuredGrid *grid, VtkMessages &messages,
                 std::vector<std::string> &notes) {
-  const bool written = file_ending(path) == ".vtk" ? write_legacy(path, grid) : write_xml(path, grid);
-  messages.check(path, notes);
-  if (!written) throw Failure(path + ": VTK could not write it");
+  if (file_ending(file.path()) == ".vtk")
+    write_legacy(file, grid);
+  else
+    write_xml(file, grid);
+  messages.check(file.path(), notes);
 }
 
 }  // namespace cli

@@ -6,12 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "output_file.hpp"
 #include "quiet_vtk.hpp"
 
 namespace cli {
 
 // As .vtu or .vtk, by the path's ending. Throws Failure.
-void write_grid(const std::string &path, vtkUnstructuredGrid *grid, VtkMessages &messages,
+void write_grid(const OutputFile &file, vtkUnstructuredGrid *grid, VtkMessages &messages,
                 std::vector<std::string> &notes);
 
 }  // namespace cli

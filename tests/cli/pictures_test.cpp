@@ -78,5 +78,16 @@ TEST_F(Pictures, AFolderThatCannotBeMade) {
   EXPECT_EQ(folder.names(), std::vector<std::string>{"in.vtk"}) << "nothing was done";
 }
 
+TEST_F(Pictures, APictureThatBecomesTooLarge) {
+  write_cube(folder / "in.vtk", {});
+  const std::string pictures = folder / "pictures";
+  const Outcome outcome =
+      run_tool_with_room({folder / "in.vtk", folder / "out.vtu", "--sigma", "0.1", "--pictures", pictures}, 20000);
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_EQ(outcome.err.rfind("tetlod: " + pictures + "/surface.png: cannot be written: ", 0), 0U) << outcome.err;
+  EXPECT_TRUE(std::filesystem::is_empty(pictures));
+  EXPECT_FALSE(std::filesystem::exists(folder / "out.vtu"));
+}
+
 }  // namespace
 }  // namespace cli_test

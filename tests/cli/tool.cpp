@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -67,6 +68,22 @@ void end_after_a_minute(pid_t child) {
   if (!has_ended(child)) kill(child, SIGKILL);
 }
 
+// Of this process while it lives, and for ever of those that it starts meanwhile.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(long bytes) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{static_cast<rlim_t>(bytes), before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() { setrlimit(RLIMIT_FSIZE, &before_); }
+  FileSizeLimit(const FileSizeLimit &) = delete;
+  FileSizeLimit &operator=(const FileSizeLimit &) = delete;
+
+ private:
+  rlimit before_{};
+};
+
 template <class Meanwhile>
 Outcome run_and(const std::vector<std::string> &arguments, const Meanwhile &meanwhile) {
   const Folder folder;
@@ -90,6 +107,11 @@ Outcome run_tool(const std::vector<std::string> &arguments) {
 
 Outcome run_tool_for_a_minute(const std::vector<std::string> &arguments) {
   return run_and(arguments, end_after_a_minute);
+}
+
+Outcome run_tool_with_room(const std::vector<std::string> &arguments, long bytes) {
+  const FileSizeLimit limit(bytes);
+  return run_tool(arguments);
 }
 
 Outcome interrupt_tool(const std::vector<std::string> &arguments) { return run_and(arguments, interrupt); }

@@ -18,6 +18,9 @@ Outcome run_tool(const std::vector<std::string> &arguments);
 // The same, killed after a minute: for what might wait for ever.
 Outcome run_tool_for_a_minute(const std::vector<std::string> &arguments);
 
+// The same, where no file may grow beyond so many bytes.
+Outcome run_tool_with_room(const std::vector<std::string> &arguments, long bytes);
+
 // The same, interrupted (SIGINT) as soon as the tool is ready for that.
 Outcome interrupt_tool(const std::vector<std::string> &arguments);
 

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 
 #include "mesh_file.hpp"
@@ -117,6 +119,24 @@ TEST_F(Usage, PipesAreNoFiles) {
   expect_failure(run_tool({in, out, "--report", pipe}), 1, "pipe.vtu: is not a file");
   EXPECT_TRUE(std::filesystem::is_fifo(pipe));
   EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+void expect_too_large(const Outcome &outcome, const std::string &path) {
+  expect_failure(outcome, 1, path + ": cannot be written: " + std::strerror(EFBIG));
+}
+
+// As a full disk does, wherever it cuts the file. Edges are collapsed here, so that no other process needs files.
+TEST_F(Usage, AFileThatBecomesTooLarge) {
+  write_cube(folder / "in.vtk", {});
+  for (const std::string &out : {folder / "out.vtu", folder / "out.vtk"}) {
+    const std::vector<std::string> words = {folder / "in.vtk", out, "--preset", "accurate", "--target-ratio", "0.9"};
+    ASSERT_EQ(run_tool(words).status, 0);
+    const long size = static_cast<long>(std::filesystem::file_size(out));
+    std::filesystem::remove(out);
+    for (const long limit : {300L, 1000L, 10000L, size / 2, size - 1})
+      expect_too_large(run_tool_with_room(words, limit), out);
+  }
+  expect_only_input();
 }
 
 TEST_F(Usage, AFieldThatIsNotThere) {

@@ -1,7 +1,6 @@
 #include "pictures.hpp"
 
 #include <filesystem>
-#include <fstream>
 
 #include "failure.hpp"
 #include "figure.hpp"
@@ -15,10 +14,7 @@ namespace {
 
 void write_whole(const std::string &path, const std::string &bytes) {
   OutputFile file(path);
-  std::ofstream stream(file.temporary(), std::ios::binary);
-  stream << bytes;
-  stream.close();
-  if (!stream) throw Failure(path + ": cannot be written");
+  file.write(bytes);
   file.keep();
 }
 
