@@ -54,6 +54,7 @@ void run(const Arguments &arguments) {
   bar.show("read", 0.0);
   const auto original = read_grid(arguments.input, *messages, notes);
   seconds.reading = watch.lap();
+  check_names(arguments.output, *original);
   stop_if_interrupted();
   vtkUnstructuredGrid *simplified = simplify(*filter, original, arguments, bar, *messages, notes);
   seconds.measuring = filter->GetSecondsOfMeasuring();

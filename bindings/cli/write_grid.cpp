@@ -1,12 +1,20 @@
 #include "write_grid.hpp"
 
+#include <vtkDataArray.h>
+#include <vtkDataObject.h>
+#include <vtkDataSetAttributes.h>
 #include <vtkErrorCode.h>
 #include <vtkNew.h>
+#include <vtkSmartPointer.h>
 #include <vtkUnstructuredGridWriter.h>
+#include <vtkXMLDataElement.h>
 #include <vtkXMLUnstructuredGridWriter.h>
+#include <vtkXMLUtilities.h>
 
 #include <cerrno>
 #include <cstring>
+
+#include "failure.hpp"
 
 namespace cli {
 namespace {
@@ -43,7 +51,34 @@ void write_legacy(const OutputFile &file, vtkUnstructuredGrid *grid) {
   write_with(*writer, file, grid);
 }
 
+// The writer puts names between quotes as they are.
+bool survives_xml(const char *name) {
+  const auto element = vtk::TakeSmartPointer(
+      vtkXMLUtilities::ReadElementFromString(("<Array Name=\"" + std::string(name) + "\"/>").c_str()));
+  const char *read = element != nullptr ? element->GetAttribute("Name") : nullptr;
+  return read != nullptr && std::strcmp(read, name) == 0;
+}
+
+void check_name(const std::string &path, const char *name) {
+  if (name != nullptr && !survives_xml(name))
+    throw Failure(path + ": a .vtu file cannot have the name '" + name + "' for an array or a component; .vtk can");
+}
+
+void check_names_of(const std::string &path, vtkDataArray *array) {
+  if (array == nullptr) return;
+  check_name(path, array->GetName());
+  for (int i = 0; i < array->GetNumberOfComponents(); i++) check_name(path, array->GetComponentName(i));
+}
+
 }  // namespace
+
+void check_names(const std::string &path, vtkUnstructuredGrid &grid) {
+  if (file_ending(path) == ".vtk") return;
+  for (int type : {vtkDataObject::POINT, vtkDataObject::CELL}) {
+    vtkDataSetAttributes &data = *grid.GetAttributes(type);
+    for (int i = 0; i < data.GetNumberOfArrays(); i++) check_names_of(path, data.GetArray(i));
+  }
+}
 
 void write_grid(const OutputFile &file, vtkUnstructuredGrid *grid, VtkMessages &messages,
                 std::vector<std::string> &notes) {

@@ -11,6 +11,9 @@
 
 namespace cli {
 
+// Throws Failure where an array's name would make the file unreadable.
+void check_names(const std::string &path, vtkUnstructuredGrid &grid);
+
 // As .vtu or .vtk, by the path's ending. Throws Failure.
 void write_grid(const OutputFile &file, vtkUnstructuredGrid *grid, VtkMessages &messages,
                 std::vector<std::string> &notes);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "mesh_file.hpp"
 #include "tool.hpp"
@@ -123,6 +124,18 @@ TEST_F(Files, AllOtherArraysRideAlong) {
       expect_in(array_tag(out, "part"), part);
     EXPECT_LT(out.find("Name=\"flow\""), out.find("<CellData"));
     EXPECT_GT(out.find("Name=\"part\""), out.find("<CellData"));
+  }
+}
+
+TEST_F(Files, NamesOutlastBothFormats) {
+  const std::pair<const char *, const char *> names[] = {
+      {"a%20'b'%20>%20c", "a 'b' > c"}, {"%C3%A9:1", "\xC3\xA9:1"}, {"%2525", "%25"}};
+  for (const auto &[encoded, name] : names) {
+    Cube cube;
+    cube.other = encoded;
+    run_on(cube);
+    expect_linear_field_kept(run(folder / "out.vtu", folder / "again.vtk", {"--field", name}));
+    EXPECT_EQ(run(folder / "again.vtk", folder / "out.vtu", {"--field", name})["field"], name);
   }
 }
 

@@ -193,7 +193,7 @@ void write_point_data(std::ostream &file, const Cube &cube, const Lattice &latti
     if (nan) file << "nan\n";
     if (!nan) file << x + 2 * y + 3 * z << '\n';
   });
-  file << "SCALARS other " << cube.real << " 1\nLOOKUP_TABLE default\n";
+  file << "SCALARS " << cube.other << ' ' << cube.real << " 1\nLOOKUP_TABLE default\n";
   lattice.for_each_node([&](const Node &n) { file << lattice.point(n)[0] << '\n'; });
   file << "VECTORS flow float\n";
   lattice.for_each_node([&](const Node &) { file << "1 0 0\n"; });

@@ -11,6 +11,7 @@ struct Cube {
   Kind kind = Kind::tet;
   int size = 6;
   std::string real = "double";  // type of coordinates and values: float or double
+  std::string other = "other";  // its name, encoded as the format has it
   std::string integer;          // int or vtktypeint64: format 5.1; empty: format 4.2
   double shift = 0;             // of all points along x
   bool with_triangle = false;   // beside the volume cells

@@ -6,6 +6,8 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <string>
+#include <utility>
 
 #include "mesh_file.hpp"
 #include "tool.hpp"
@@ -149,6 +151,31 @@ TEST_F(Usage, AFieldThatIsNotThere) {
   expect_failure(run_on({}, {"--steer", "x:1:1"}), 1, "no field 'x:1'");
   expect_failure(run_on({}, {"--steer", "flow"}), 1, "not one number");
   expect_failure(run_on({}, {"--steer", "heat"}), 1, "it is the first");
+  expect_only_input();
+}
+
+// VTK writes names into the file as they are, which no one could read.
+TEST_F(Usage, NamesThatXmlCannotHave) {
+  const std::pair<const char *, const char *> names[] = {
+      {"a%22b", "a\"b"},   {"a%22%20b=%22c", "a\" b=\"c"}, {"a<b", "a<b"},
+      {"a&b", "a&b"},      {"a&amp;b", "a&amp;b"},         {"a%01z", "a\x01z"},
+      {"a%E9z", "a\xE9z"},
+  };
+  for (const auto &[encoded, name] : names) {
+    Cube cube;
+    cube.other = encoded;
+    expect_failure(run_on(cube), 1, "'" + std::string(name) + "'");
+    expect_only_input();
+    const Outcome legacy = run_tool({folder / "in.vtk", folder / "out.vtk", "--quiet"});
+    EXPECT_EQ(legacy.status, 0) << legacy.err;
+    std::filesystem::remove(folder / "out.vtk");
+  }
+}
+
+TEST_F(Usage, NamesOfComponentsThatXmlCannotHave) {
+  write_cube(folder / "in.vtk", {});
+  std::ofstream(folder / "in.vtk", std::ios::app) << "METADATA\nCOMPONENT_NAMES\nu\n%22v%22\nw\n\n";
+  expect_failure(run_tool({folder / "in.vtk", folder / "out.vtu"}), 1, "'\"v\"'");
   expect_only_input();
 }
 
