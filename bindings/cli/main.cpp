@@ -2,6 +2,9 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <iostream>
 #include <new>
 
@@ -24,6 +27,12 @@ namespace {
 
 using Notes = std::vector<std::string>;
 
+// A full disk may show only when the last of the text leaves its buffer.
+void check_printed() {
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+    throw Failure(std::string("standard output cannot be written: ") + std::strerror(errno));
+}
+
 void print_notes(const Arguments &arguments, const Notes &notes) {
   if (arguments.quiet) return;
   for (const std::string &note : notes) std::cerr << "tetlod: note: " << one_line(note) << '\n';
@@ -32,7 +41,7 @@ void print_notes(const Arguments &arguments, const Notes &notes) {
 void print_table(const Arguments &arguments, const std::string &field, const vtkTetlodSimplify &filter,
                  const ToolSeconds &seconds) {
   if (arguments.quiet) return;
-  std::cout << arguments.input << " -> " << arguments.output << ", field " << field << std::endl;
+  std::cout << arguments.input << " -> " << arguments.output << ", field " << field << '\n';
   const table2_seconds around = {seconds.reading, -1.0, seconds.writing};
   check(table2_print(stdout, filter.GetContext(), &filter.GetErrorReport(), &around), filter.GetContext());
 }
@@ -73,6 +82,7 @@ void run(const Arguments &arguments) {
   bar.clear();
   print_notes(arguments, notes);
   print_table(arguments, field, *filter, seconds);
+  check_printed();
 }
 
 int fail(const std::string &message, ExitStatus status) {
@@ -89,7 +99,10 @@ int main(int argc, char **argv) {
     watch_interrupts();
     report_full_files();
     const std::optional<Arguments> arguments = parse_arguments(argc, argv);
-    if (arguments) run(*arguments);
+    if (arguments)
+      run(*arguments);
+    else
+      check_printed();
     return kDone;
   } catch (const Failure &failure) {
     return fail(failure.what(), failure.status());

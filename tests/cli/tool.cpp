@@ -85,16 +85,17 @@ class FileSizeLimit {
 };
 
 template <class Meanwhile>
-Outcome run_and(const std::vector<std::string> &arguments, const Meanwhile &meanwhile) {
+Outcome run_and(const std::vector<std::string> &arguments, const Meanwhile &meanwhile,
+                const std::string &printed_to = "") {
   const Folder folder;
-  const std::string out = folder / "out", err = folder / "err";
+  const std::string out = printed_to.empty() ? folder / "out" : printed_to, err = folder / "err";
   std::vector<std::string> words = {TETLOD_TOOL};
   words.insert(words.end(), arguments.begin(), arguments.end());
   const pid_t child = spawn(words, out, err);
   meanwhile(child);
   Outcome outcome;
   outcome.status = wait_for(child);
-  outcome.out = contents_of(out);
+  if (printed_to.empty()) outcome.out = contents_of(out);
   outcome.err = contents_of(err);
   return outcome;
 }
@@ -112,6 +113,11 @@ Outcome run_tool_for_a_minute(const std::vector<std::string> &arguments) {
 Outcome run_tool_with_room(const std::vector<std::string> &arguments, long bytes) {
   const FileSizeLimit limit(bytes);
   return run_tool(arguments);
+}
+
+Outcome run_tool_printing_to(const std::string &device, const std::vector<std::string> &arguments) {
+  return run_and(
+      arguments, [](pid_t) {}, device);
 }
 
 Outcome interrupt_tool(const std::vector<std::string> &arguments) { return run_and(arguments, interrupt); }

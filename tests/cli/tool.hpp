@@ -21,6 +21,9 @@ Outcome run_tool_for_a_minute(const std::vector<std::string> &arguments);
 // The same, where no file may grow beyond so many bytes.
 Outcome run_tool_with_room(const std::vector<std::string> &arguments, long bytes);
 
+// The same with another stdout, which is not read again.
+Outcome run_tool_printing_to(const std::string &device, const std::vector<std::string> &arguments);
+
 // The same, interrupted (SIGINT) as soon as the tool is ready for that.
 Outcome interrupt_tool(const std::vector<std::string> &arguments);
 

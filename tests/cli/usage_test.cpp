@@ -141,6 +141,17 @@ TEST_F(Usage, AFileThatBecomesTooLarge) {
   expect_only_input();
 }
 
+// What was asked for is to be printed, or else it failed.
+TEST_F(Usage, AStandardOutputThatIsFull) {
+  write_cube(folder / "in.vtk", {});
+  const std::string in = folder / "in.vtk", out = folder / "out.vtu";
+  const std::string why = std::string("standard output cannot be written: ") + std::strerror(ENOSPC);
+  expect_failure(run_tool_printing_to("/dev/full", {in, out}), 1, why);
+  expect_failure(run_tool_printing_to("/dev/full", {"--help"}), 1, why);
+  expect_failure(run_tool_printing_to("/dev/full", {"--version"}), 1, why);
+  EXPECT_EQ(run_tool_printing_to("/dev/full", {in, out, "--quiet"}).status, 0) << "nothing to print";
+}
+
 TEST_F(Usage, AFieldThatIsNotThere) {
   expect_failure(run_on({}, {"--field", "cold"}), 1, "heat");
   expect_failure(run_on({}, {"--field", "cold"}), 1, "other");
