@@ -1,13 +1,12 @@
 #include "read_grid.hpp"
 
 #include <vtkUnstructuredGridReader.h>
-#include <vtkXMLPUnstructuredGridReader.h>
-#include <vtkXMLUnstructuredGridReader.h>
 
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 
+#include "checked_readers.hpp"
 #include "failure.hpp"
 #include "output_file.hpp"
 
@@ -38,8 +37,8 @@ Grid read_legacy(const std::string &path) {
 Grid read_by_ending(const std::string &path) {
   const std::string ending = file_ending(path);
   if (ending == ".vtk") return read_legacy(path);
-  if (ending == ".pvtu") return read_with(*vtkNew<vtkXMLPUnstructuredGridReader>(), path);
-  return read_with(*vtkNew<vtkXMLUnstructuredGridReader>(), path);
+  if (ending == ".pvtu") return read_with(*vtkNew<CheckedPartsReader>(), path);
+  return read_with(*vtkNew<CheckedReader>(), path);
 }
 
 }  // namespace

@@ -86,6 +86,31 @@ TEST_F(Usage, FilesThatCannotBeRead) {
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 
+std::string with_count(std::string text, const std::string &name, const std::string &count) {
+  const std::size_t begin = text.find(name + "=\"") + name.size() + 2;
+  return text.replace(begin, text.find('"', begin) - begin, count);
+}
+
+// In the file itself, and in one that another names as its part.
+TEST_F(Usage, CountsThatAreNone) {
+  const std::string in = folder / "in.vtu", out = folder / "out.vtu", parts = folder / "parts.pvtu";
+  write_cube(folder / "in.vtk", {});
+  ASSERT_EQ(run_tool({folder / "in.vtk", in}).status, 0);
+  const std::string whole = contents_of(in);
+  std::ofstream(parts) << R"(<VTKFile type="PUnstructuredGrid" version="0.1"><PUnstructuredGrid>
+<PPointData><PDataArray type="Float64" Name="heat"/></PPointData>
+<PPoints><PDataArray type="Float64" NumberOfComponents="3"/></PPoints>
+<Piece Source="in.vtu"/></PUnstructuredGrid></VTKFile>)";
+  for (const char *name : {"NumberOfPoints", "NumberOfCells"}) {
+    for (const char *count : {"-1", "-2", "9223372036854775807", "many"}) {
+      std::ofstream(in) << with_count(whole, name, count);
+      expect_failure(run_tool({in, out}), 1, std::string(name) + "=\"" + count);
+      expect_failure(run_tool({parts, out}), 1, std::string(name) + "=\"" + count);
+    }
+  }
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
 TEST_F(Usage, FilesThatCannotBeWritten) {
   write_cube(folder / "in.vtk", {});
   const std::string in = folder / "in.vtk";
