@@ -4,7 +4,8 @@ module tetlod_lifetime
     c_loc, c_null_funptr, c_null_ptr, c_ptr, c_associated, c_size_t, c_sizeof
   use tetlod_c
   use tetlod_text, only: c_text, fortran_text
-  use tetlod_types, only: tetlod_config, TETLOD_API_VERSION, TETLOD_ERR_MEMORY, TETLOD_ERR_STATE, TETLOD_OK
+  use tetlod_types, only: tetlod_config, TETLOD_API_VERSION, TETLOD_ERR_MEMORY, TETLOD_ERR_STATE, TETLOD_OK, &
+    TETLOD_OPT_THREADS
   implicit none
   private
   public :: tetlod_log_procedure, tetlod_progress_procedure
@@ -27,7 +28,7 @@ module tetlod_lifetime
     end subroutine
   end interface
 
-  ! What C gets as its user pointer: it stays in place when the context's variable does not.
+  ! What C gets as its user pointer: it stays in place when the context's variable does not. As old as the context.
   type :: callbacks
     procedure(tetlod_log_procedure), pointer, nopass :: log => null()
     procedure(tetlod_progress_procedure), pointer, nopass :: progress => null()
@@ -87,17 +88,34 @@ contains
       end if
       config%remesher = c_loc(path)
     end if
+    allocate (this%called, stat=refused)
+    if (refused /= 0) then
+      call conclude(TETLOD_ERR_MEMORY, "create: no memory for the callbacks", stat, errmsg)
+      return
+    end if
     status = c_create(config, this%handle)
+    if (status /= TETLOD_OK) deallocate (this%called)
     call this%settle(status, stat, errmsg)
   end subroutine
 
-  ! Ends the context and its result; the submitted arrays are free again. Allowed without a context.
+  ! Ends the context and its result; the submitted arrays are free again. Allowed without a context; does nothing inside
+  ! a callback of the context.
   subroutine destroy(this)
     class(tetlod_owner), intent(inout) :: this
+    if (is_in_use(this)) return
     call c_destroy(this%handle)
     this%handle = c_null_ptr
     if (associated(this%called)) deallocate (this%called)
   end subroutine
+
+  ! Whether C would ignore destroy, which does not tell: it refuses every other call then, too.
+  function is_in_use(this)
+    class(tetlod_owner), intent(in) :: this
+    logical :: is_in_use
+    integer(c_int64_t) :: threads
+    threads = 0
+    is_in_use = c_get_int(this%handle, TETLOD_OPT_THREADS, threads) == TETLOD_ERR_STATE
+  end function
 
   ! The one call allowed from another thread.
   subroutine cancel(this)
@@ -105,7 +123,8 @@ contains
     call c_cancel(this%handle)
   end subroutine
 
-  ! Without a procedure: no log. user must live as long as the procedure is set.
+  ! Without a procedure: no log. user must live as long as the procedure is set. Inside a callback of the context this
+  ! is TETLOD_ERR_STATE, and what was set remains, as C may be about to call it: C is asked first.
   subroutine set_log(this, log, min_level, user, stat, errmsg)
     class(tetlod_owner), intent(inout) :: this
     procedure(tetlod_log_procedure), optional :: log
@@ -114,18 +133,18 @@ contains
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
     type(c_funptr) :: function
-    integer(c_int32_t) :: level
-    call make_callbacks(this)
-    nullify (this%called%log, this%called%log_user)
+    integer(c_int32_t) :: level, status
     function = c_null_funptr
+    if (present(log)) function = c_funloc(call_log)
     level = 1
     if (present(min_level)) level = int(min_level, c_int32_t)
-    if (present(user)) this%called%log_user => user
-    if (present(log)) then
-      this%called%log => log
-      function = c_funloc(call_log)
+    status = c_set_log(this%handle, function, callbacks_of(this), level)
+    if (status == TETLOD_OK) then
+      nullify (this%called%log, this%called%log_user)
+      if (present(log)) this%called%log => log
+      if (present(user)) this%called%log_user => user
     end if
-    call this%settle(c_set_log(this%handle, function, c_loc(this%called), level), stat, errmsg)
+    call this%settle(status, stat, errmsg)
   end subroutine
 
   ! Without a procedure: none. user must live as long as the procedure is set.
@@ -136,24 +155,25 @@ contains
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
     type(c_funptr) :: function
-    call make_callbacks(this)
-    nullify (this%called%progress, this%called%progress_user)
+    integer(c_int32_t) :: status
     function = c_null_funptr
-    if (present(user)) this%called%progress_user => user
-    if (present(progress)) then
-      this%called%progress => progress
-      function = c_funloc(call_progress)
+    if (present(progress)) function = c_funloc(call_progress)
+    status = c_set_progress(this%handle, function, callbacks_of(this))
+    if (status == TETLOD_OK) then
+      nullify (this%called%progress, this%called%progress_user)
+      if (present(progress)) this%called%progress => progress
+      if (present(user)) this%called%progress_user => user
     end if
-    call this%settle(c_set_progress(this%handle, function, c_loc(this%called)), stat, errmsg)
+    call this%settle(status, stat, errmsg)
   end subroutine
 
-  subroutine make_callbacks(this)
-    class(tetlod_owner), intent(inout) :: this
-    integer :: refused
-    if (associated(this%called)) return
-    allocate (this%called, stat=refused)
-    if (refused /= 0) error stop "tetlod: no memory for a callback"
-  end subroutine
+  ! Null without a context.
+  function callbacks_of(this) result(user)
+    class(tetlod_owner), intent(in) :: this
+    type(c_ptr) :: user
+    user = c_null_ptr
+    if (associated(this%called)) user = c_loc(this%called)
+  end function
 
   subroutine call_log(user, level, message) bind(C)
     type(c_ptr), value :: user, message

@@ -9,6 +9,11 @@ module module_tests
   type :: tally
     integer :: calls = 0
   end type
+  ! What a callback may not do with the context that calls it.
+  type :: meddler
+    type(tetlod_context) :: lod
+    integer :: calls = 0, refused = 0
+  end type
 
 contains
 
@@ -152,6 +157,8 @@ contains
     message = "untouched"
     call lod%run(stat=stat, errmsg=message)
     call expect(stat == TETLOD_ERR_ARGUMENT .and. index(message, "create") > 0, "no context")
+    call lod%set_progress(stop_at_once, stat=stat)
+    call expect(stat == TETLOD_ERR_ARGUMENT, "a callback without a context")
     call lod%create(stat=stat, errmsg=message)
     message = "untouched"
     call lod%set_rho(0.25d0, stat=stat, errmsg=message)
@@ -215,6 +222,90 @@ contains
     call expect(stat == TETLOD_OK, "runs again without it")
     call lod%destroy()
   end subroutine
+  subroutine meddle(m)
+    type(meddler), intent(inout) :: m
+    type(tally), target :: mine
+    integer :: stat(4)
+    call m%lod%set_progress(stat=stat(1))
+    call m%lod%set_progress(stop_at_once, user=mine, stat=stat(2))
+    call m%lod%set_log(stat=stat(3))
+    call m%lod%set_rho(0.5, stat=stat(4))
+    call m%lod%destroy()
+    m%calls = m%calls + 1
+    m%refused = m%refused + count(stat == TETLOD_ERR_STATE)
+  end subroutine
+
+  subroutine meddle_in_progress(stage, fraction, cancel, user)
+    integer(int32), intent(in) :: stage
+    real(real64), intent(in) :: fraction
+    logical, intent(inout) :: cancel
+    class(*), pointer, intent(in) :: user
+    call expect(stage >= 0 .and. fraction >= 0 .and. .not. cancel, "stage, fraction and cancel")
+    select type (user)
+    type is (meddler)
+      call meddle(user)
+    end select
+  end subroutine
+
+  subroutine meddle_in_log(level, message, user)
+    integer(int32), intent(in) :: level
+    character(len=*), intent(in) :: message
+    class(*), pointer, intent(in) :: user
+    call expect(level >= 0 .and. len(message) > 0, "level and message")
+    select type (user)
+    type is (meddler)
+      call meddle(user)
+    end select
+  end subroutine
+
+  subroutine test_calls_inside_progress()
+    real(real64), target :: xyz(3, points), values(points)
+    integer(int32), target :: corners(4, tets)
+    type(meddler), target :: m
+    type(tetlod_context) :: lod
+    integer :: run, before, stat
+    call make_mesh(xyz, corners, values)
+    call begin(lod)
+    call lod%submit_points(xyz)
+    call lod%submit_tets(corners)
+    call lod%submit_scalars("linear", values)
+    call lod%set_progress(meddle_in_progress, user=m)
+    m%lod = lod
+    do run = 1, 2
+      before = m%calls
+      call lod%run(stat=stat)
+      call expect(stat == TETLOD_OK, "a run whose callbacks call the context")
+      call expect(m%calls > before, "what was set is called, also in the next run")
+    end do
+    call expect(m%refused == 4 * m%calls, "calls inside the progress procedure are refused")
+    call lod%set_progress()
+    before = m%calls
+    call expect(finish(lod) /= 0 .and. m%calls == before, "it is not called any more")
+    call lod%run(stat=stat)
+    call expect(stat == TETLOD_ERR_ARGUMENT, "outside destroy ends the context")
+  end subroutine
+
+  ! A program that is no worker, and complains: what it says is logged.
+  subroutine test_calls_inside_log()
+    real(real64), target :: xyz(3, points), values(points)
+    integer(int32), target :: corners(4, tets)
+    type(meddler), target :: m
+    type(tetlod_context) :: lod
+    integer :: run, stat
+    call make_mesh(xyz, corners, values)
+    call lod%create(remesher="/bin/cp")
+    call lod%submit_points(xyz)
+    call lod%submit_tets(corners)
+    call lod%submit_scalars("linear", values)
+    call lod%set_log(meddle_in_log, min_level=0, user=m)
+    m%lod = lod
+    do run = 1, 2
+      call lod%run(stat=stat)
+      call expect(stat == TETLOD_ERR_BACKEND_MISSING .and. m%calls >= run, "logged, what was set is called again")
+    end do
+    call expect(m%refused == 4 * m%calls, "calls inside the log procedure are refused")
+    call lod%destroy()
+  end subroutine
 end module
 
 program test_module
@@ -225,6 +316,8 @@ program test_module
   call test_layouts()
   call test_failures()
   call test_callbacks()
+  call test_calls_inside_progress()
+  call test_calls_inside_log()
   if (failures > 0) error stop "the module tetlod fails"
   print '("ok: ", a)', tetlod_build_info()
 end program
