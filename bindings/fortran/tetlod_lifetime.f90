@@ -95,7 +95,7 @@ contains
     end if
     status = c_create(config, this%handle)
     if (status /= TETLOD_OK) deallocate (this%called)
-    call this%settle(status, stat, errmsg)
+    call conclude(status, this%last_message(), stat, errmsg)
   end subroutine
 
   ! Ends the context and its result; the submitted arrays are free again. Allowed without a context; does nothing inside

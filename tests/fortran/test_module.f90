@@ -159,6 +159,8 @@ contains
     call expect(stat == TETLOD_ERR_ARGUMENT .and. index(message, "create") > 0, "no context")
     call lod%set_progress(stop_at_once, stat=stat)
     call expect(stat == TETLOD_ERR_ARGUMENT, "a callback without a context")
+    call lod%create(remesher="", stat=stat, errmsg=message)
+    call expect(stat == TETLOD_ERR_ARGUMENT .and. index(message, "config: remesher") == 1, "no remesher: "//message)
     call lod%create(stat=stat, errmsg=message)
     message = "untouched"
     call lod%set_rho(0.25d0, stat=stat, errmsg=message)
