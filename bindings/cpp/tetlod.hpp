@@ -123,7 +123,8 @@ inline tetlod_bounds option_bounds(std::int32_t option) {
 }
 
 /// Called on the thread that runs. What they throw cancels the run (progress) or is kept until it ends (log), and is
-/// then thrown by the call that ran: it never passes through the library.
+/// then thrown by the call that ran: it never passes through the library. They may assign to the Context that calls
+/// them, or end it: the context that runs ends after the call then, with its result.
 using LogFunction = std::function<void(std::int32_t level, const char *message)>;
 using ProgressFunction = std::function<bool(std::int32_t stage, double fraction)>;  // true cancels
 
@@ -131,10 +132,11 @@ class Context {
  public:
   Context() : Context(default_config()) {}
   /// config as tetlod_create takes it; struct_size and api_version are set here.
-  explicit Context(tetlod_config config) : callbacks_(std::make_unique<Callbacks>()) {
+  explicit Context(tetlod_config config) : callbacks_(std::make_shared<Callbacks>()) {
     config.struct_size = sizeof config;
     config.api_version = TETLOD_API_VERSION;
     require(tetlod_create(&config, &handle_));
+    callbacks_->called_by = handle_;
   }
   Context(Context &&other) noexcept
       : handle_(std::exchange(other.handle_, nullptr)), callbacks_(std::move(other.callbacks_)) {}
@@ -143,15 +145,10 @@ class Context {
     std::swap(callbacks_, other.callbacks_);
     return *this;
   }
-  ~Context() { tetlod_destroy(handle_); }
 
   /// For functions of the C ABI.
   tetlod_context *get() const noexcept { return handle_; }
-  std::string last_message() const {
-    std::vector<char> text(tetlod_last_message(handle_, nullptr, 0) + 1);
-    tetlod_last_message(handle_, text.data(), text.size());
-    return text.data();
-  }
+  std::string last_message() const { return message_of(handle_); }
 
   /// An empty function: none.
   void set_log(LogFunction log, std::int32_t min_level = 1) {
@@ -205,10 +202,10 @@ class Context {
   tetlod_mesh_report check() { return report<tetlod_mesh_report>(tetlod_check); }
   std::uint64_t estimate_memory() {
     std::uint64_t bytes = 0;
-    require(tetlod_estimate_memory(handle_, &bytes));
+    require_of([&](tetlod_context *handle) { return tetlod_estimate_memory(handle, &bytes); });
     return bytes;
   }
-  void run() { require(tetlod_run(handle_)); }
+  void run() { require_of(tetlod_run); }
   tetlod_error_report measure_error(std::int32_t samples_per_tet) {
     return report<tetlod_error_report>([samples_per_tet](tetlod_context *handle, tetlod_error_report *out) {
       return tetlod_measure_error(handle, samples_per_tet, out);
@@ -237,10 +234,11 @@ class Context {
     require(tetlod_fetch_field(handle_, name.c_str(), &dst.array));
   }
   void fetch_stencil(std::int32_t index_base, Destination ids, Destination weights) const {
-    require(tetlod_fetch_stencil(handle_, index_base, &ids.array, &weights.array));
+    require_of(
+        [&](tetlod_context *handle) { return tetlod_fetch_stencil(handle, index_base, &ids.array, &weights.array); });
   }
   void transfer(const Source &original, Destination simplified) {
-    require(tetlod_transfer(handle_, &original.array, &simplified.array));
+    require_of([&](tetlod_context *handle) { return tetlod_transfer(handle, &original.array, &simplified.array); });
   }
   tetlod_run_report fetch_report() const { return report<tetlod_run_report>(tetlod_fetch_report); }
 
@@ -249,10 +247,17 @@ class Context {
   View<double> view_scalars() const { return view<double>(tetlod_view_scalars); }
 
  private:
+  /// With the context that calls them, so that both end together: at the Context's end, or after the call under way.
   struct Callbacks {
     LogFunction log;
     ProgressFunction progress;
     std::exception_ptr thrown;
+    tetlod_context *called_by = nullptr;
+
+    Callbacks() = default;
+    Callbacks(const Callbacks &) = delete;
+    Callbacks &operator=(const Callbacks &) = delete;
+    ~Callbacks() { tetlod_destroy(called_by); }
   };
 
   static tetlod_config default_config() { return {}; }
@@ -276,17 +281,32 @@ class Context {
     }
   }
 
+  static std::string message_of(tetlod_context *handle) {
+    std::vector<char> text(tetlod_last_message(handle, nullptr, 0) + 1);
+    tetlod_last_message(handle, text.data(), text.size());
+    return text.data();
+  }
+
   /// What a callback threw goes first: the library's status is its consequence.
-  void require(tetlod_status status) const {
-    if (callbacks_ && callbacks_->thrown) std::rethrow_exception(std::exchange(callbacks_->thrown, nullptr));
-    if (status != TETLOD_OK) throw Error(status, last_message());
+  static void require(tetlod_status status, tetlod_context *handle, Callbacks *callbacks) {
+    if (callbacks && callbacks->thrown) std::rethrow_exception(std::exchange(callbacks->thrown, nullptr));
+    if (status != TETLOD_OK) throw Error(status, message_of(handle));
+  }
+  void require(tetlod_status status) const { require(status, handle_, callbacks_.get()); }
+
+  /// The same of a call that may call back: afterwards this Context may be another one, or gone.
+  template <class Call>
+  void require_of(Call call) const {
+    const std::shared_ptr<Callbacks> callbacks = callbacks_;
+    tetlod_context *const handle = handle_;
+    require(call(handle), handle, callbacks.get());
   }
 
   template <class Report, class Call>
   Report report(Call call) const {
     Report out = {};
     out.struct_size = sizeof out;
-    require(call(handle_, &out));
+    require_of([&](tetlod_context *handle) { return call(handle, &out); });
     return out;
   }
 
@@ -299,7 +319,7 @@ class Context {
   }
 
   tetlod_context *handle_ = nullptr;
-  std::unique_ptr<Callbacks> callbacks_;  // in place when the context moves
+  std::shared_ptr<Callbacks> callbacks_;  // in place when the context moves; shared with a call under way
 };
 
 }  // namespace tetlod

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <memory>
 #include <tetlod.hpp>
 
 namespace {
@@ -148,6 +149,56 @@ TEST(Wrapper, ACallbacksExceptionComesOutOfTheCall) {
   EXPECT_THROW(lod.run(), std::logic_error);
   lod.set_progress({});
   EXPECT_NO_THROW(lod.run());
+}
+
+/// Runs with a progress function that lets its Context go at the first call; whether that function lived through its
+/// calls, and no longer than the run.
+template <class LetGo>
+void expect_lives_until_the_run_ends(tetlod::Context &lod, LetGo let_go) {
+  const auto calls = std::make_shared<int>(0);
+  std::weak_ptr<int> owned;
+  {
+    auto token = std::make_shared<int>(0);
+    owned = token;
+    lod.set_progress([token = std::move(token), calls, owned, let_go](std::int32_t, double) {
+      const auto counted = calls;
+      const auto watched = owned;
+      if (++*counted == 1) let_go();
+      EXPECT_FALSE(watched.expired());
+      return false;
+    });
+  }
+  lod.run();
+  EXPECT_GT(*calls, 1);
+  EXPECT_TRUE(owned.expired());
+}
+
+TEST(Wrapper, ACallbackMayAssignToItsContext) {
+  const Cube cube;
+  tetlod::Context lod = cube.submitted();
+  expect_lives_until_the_run_ends(lod, [&lod] { lod = tetlod::Context(); });
+  EXPECT_THROW(lod.run(), tetlod::Error) << "nothing is submitted to the new one";
+  lod = cube.submitted();
+  EXPECT_NO_THROW(lod.run());
+}
+
+TEST(Wrapper, ACallbackMayEndItsContext) {
+  const Cube cube;
+  auto lod = std::make_unique<tetlod::Context>(cube.submitted());
+  expect_lives_until_the_run_ends(*lod, [&lod] { lod.reset(); });
+}
+
+TEST(Wrapper, ACallbackMayMoveItsContext) {
+  const Cube cube;
+  tetlod::Context lod = cube.submitted();
+  auto moved = std::make_unique<tetlod::Context>();
+  lod.set_progress([&](std::int32_t, double) {
+    if (lod.get()) moved = std::make_unique<tetlod::Context>(std::move(lod));
+    return false;
+  });
+  lod.run();
+  EXPECT_EQ(lod.get(), nullptr);
+  EXPECT_GT(moved->fetch_counts().tets, 0);
 }
 
 }  // namespace
