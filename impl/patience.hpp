@@ -36,8 +36,16 @@ class Patience {
 
  private:
   using Clock = std::chrono::steady_clock;
-  double elapsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
-  Clock::time_point start_ = Clock::now();
+  /// Seconds of waiting. Where none of us has looked for long, both processes were stopped, not the worker slow.
+  double elapsed() const {
+    constexpr double longest = 1;
+    const Clock::time_point now = Clock::now();
+    elapsed_ += std::min(std::chrono::duration<double>(now - looked_).count(), longest);
+    looked_ = now;
+    return elapsed_;
+  }
+  mutable Clock::time_point looked_ = Clock::now();
+  mutable double elapsed_ = 0;
   double seconds_, expected_;
   std::function<double(double)> progress_;
 };

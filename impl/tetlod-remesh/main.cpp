@@ -24,9 +24,11 @@ namespace {
 
 constexpr int watch_interval = 100;  // milliseconds
 
-/// Ctrl-C and the end of a terminal are for the host to answer; a full file system is an error of write().
+/// Ctrl-C, the end of a terminal, and what a batch system sends to a job are for the host to answer; a full file system
+/// is an error of write().
 void ignore_signals() {
-  for (const int signal : {SIGINT, SIGQUIT, SIGHUP, SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
+  for (const int signal : {SIGINT, SIGQUIT, SIGHUP, SIGTERM, SIGUSR1, SIGUSR2, SIGALRM, SIGPIPE, SIGXFSZ})
+    std::signal(signal, SIG_IGN);
 }
 
 /// Ends the process with the host, also in the middle of a call. The socket tells at once; but a process that the

@@ -123,6 +123,18 @@ TEST_F(WorkerTest, IsKilledBetweenCalls) {
   EXPECT_TRUE(works());
 }
 
+/// What a batch system sends to all processes of a job, and a host may ignore: another worker may find another mesh.
+TEST_F(WorkerTest, LeavesSignalsToItsHost) {
+  use(TETLOD_REMESH);
+  ASSERT_TRUE(works());
+  const std::vector<pid_t> before = children_of(::getpid());
+  for (const int signal : {SIGINT, SIGHUP, SIGTERM, SIGUSR1, SIGUSR2, SIGALRM}) {
+    ::kill(before.at(0), signal);
+    EXPECT_TRUE(works());
+  }
+  EXPECT_EQ(children_of(::getpid()), before);
+}
+
 TEST_F(WorkerTest, TakesTooLong) {
   for (const char *mode : {"hangs", "spins", "stops"}) {
     fake(mode);

@@ -201,6 +201,15 @@ TEST_F(SeveralWorkers, ToldProgressIsEachCallsOwn) {
   EXPECT_GT(told[1], 0.5);
 }
 
+/// A job that a batch system suspends, or a debugger stops.
+TEST_F(SeveralWorkers, PatienceCountsASecondOfAPauseThatStoppedTheHostToo) {
+  double told = 0;
+  const Patience patience(0, 1, [&](double fraction) { return told = fraction; });
+  std::this_thread::sleep_for(std::chrono::milliseconds(1700));
+  patience.poll(job);
+  EXPECT_NEAR(told, 0.5, 0.01);
+}
+
 /// The clock goes on while the fraction is worked out; what is told must not go back.
 TEST_F(SeveralWorkers, PatienceTellsNoLessThanBefore) {
   double told = 0;
