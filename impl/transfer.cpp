@@ -13,7 +13,7 @@ double mean(const unsigned char *const tuple[4], std::int64_t offset, const std:
   double sum = 0, low = std::numeric_limits<double>::infinity(), high = -low;
   for (std::size_t k = 0; k < 4; k++) {
     const double value = double(reinterpret_cast<const From *>(tuple[k] + offset)[0]);
-    sum += weights[k] * value;
+    sum += weights[k] == 0 ? 0 : weights[k] * value;  // 0 times infinity is no number
     low = value < low ? value : low;
     high = value > high ? value : high;
   }

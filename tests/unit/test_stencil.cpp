@@ -196,7 +196,8 @@ TEST_F(Transfer, AnyLayoutAndType) {
 
 TEST_F(Transfer, ConstantsStayWhatTheyAre) {
   const Stencil stencil = find();
-  for (double constant : {913.1500244140625, 0.1, -1.0 / 3, std::numeric_limits<double>::max()}) {
+  constexpr double most = std::numeric_limits<double>::max(), infinity = std::numeric_limits<double>::infinity();
+  for (double constant : {913.1500244140625, 0.1, -1.0 / 3, most, infinity, -infinity}) {
     const std::vector<double> from(mesh.points.size(), constant);
     std::vector<double> to(points.size());
     transfer(stencil, packed_reals(from.data(), from.size(), 1), packed_reals(to.data(), to.size(), 1), host.job);
