@@ -296,7 +296,7 @@ enum {
   TETLOD_OPT_BOUNDARY_LEAF = 7,   /* int, "boundary-leaf": triangles in a leaf of the culling tree [3.3], at most */
   TETLOD_OPT_TET_LEAF = 8,    /* int, "tet-leaf": tets that go down the tree of the points together [3.5], at most */
   TETLOD_OPT_THREADS = 9,     /* int, "threads": 0 means one a core; never more than oneTBB has in this process */
-  TETLOD_OPT_SEED = 10,       /* int, "seed": of the shuffles of remeshing's retries and of the error's samples */
+  TETLOD_OPT_SEED = 10,       /* int, "seed": of the random points at which tetlod_measure_error() compares */
   TETLOD_OPT_TIME_LIMIT = 11, /* real, "time-limit": seconds for a tetlod_run; 0: none */
   /* What happens to a defect of the mesh that can be repaired: int, TETLOD_POLICY_ERROR or TETLOD_POLICY_REPAIR. All
    * but the last default to repair. With an error policy tetlod_run first does all that tetlod_check does. */
@@ -402,7 +402,7 @@ TETLOD_API tetlod_status tetlod_clear(tetlod_context *context);
 TETLOD_API tetlod_status tetlod_check(tetlod_context *context, tetlod_mesh_report *out);
 /* Estimates tetlod_run_report.peak_bytes of a tetlod_run with what is submitted and the options as they are, within a
  * factor of 1.5 where the mesh is sound and its topology allows the size. The boundary's faces are counted for it.
- * TETLOD_ERR_STATE, TETLOD_ERR_MESH_INDEX, TETLOD_ERR_MEMORY_LIMIT. */
+ * TETLOD_ERR_STATE, what tetlod_run() says of a bad mesh, TETLOD_ERR_MEMORY_LIMIT, _CANCELLED, _TIME_LIMIT. */
 TETLOD_API tetlod_status tetlod_estimate_memory(tetlod_context *context, uint64_t *bytes);
 
 /* ---- Running ----------------------------------------------------------------------------------------------------- */

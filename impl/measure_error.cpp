@@ -141,9 +141,10 @@ FieldError measure_error(const MeshView &original, double range, const TetMesh &
     if (used[v]) tally.add(field, original.points[v], original.scalars[v * original.fields], unit);
   });
   const auto samples = std::uint64_t(samples_per_tet);
+  const std::uint64_t first = (seed << 40) ^ (seed >> 24) * 0x9e3779b97f4a7c15u;  // seeds do not share samples
   const Tally inside = tally_blocks(samples ? original.tets.size() : 0, job, 0.5, [&](std::size_t t, Tally &tally) {
     for (std::uint64_t s = 0; s < samples; s++)
-      add_sample(original, t, (seed << 40) + std::uint64_t(t) * samples + s, field, unit, tally);
+      add_sample(original, t, first + std::uint64_t(t) * samples + s, field, unit, tally);
   });
   return {at_vertices.rms(), at_vertices.worst, at_vertices.share_outside(),
           inside.rms(),      inside.worst,      inside.share_outside()};

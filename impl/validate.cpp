@@ -181,6 +181,10 @@ class Inspector {
     const Parallel alone(1);
     Job job(job_.memory, alone);
     job.cancel = job_.cancel;
+    job.progress = [this](Stage, double fraction) {
+      job_.poll(fraction);
+      return false;
+    };
     const MeshView mesh{points_, values_, tets_};
     FaceSweep(mesh, {}, job).visit([&](std::size_t, std::int32_t, const FaceUse *first, const FaceUse *last) {
       visit(first, last);

@@ -131,7 +131,7 @@ class VTKTETLOD_EXPORT vtkTetlodSimplify : public vtkUnstructuredGridAlgorithm {
   vtkTypeInt64 GetThreads();
   ///@}
   ///@{
-  /** Of the shuffles of remeshing's retries and of the error's samples. Default 1. */
+  /** Of the random points inside tets at which errors are measured. Default 1. */
   void SetSeed(vtkTypeInt64 seed);
   vtkTypeInt64 GetSeed();
   ///@}
