@@ -1,16 +1,13 @@
 ! Describes Fortran arrays to the C ABI, in place: the strides are the distances of neighbouring elements, so a section
-! of a larger array, also one that runs backwards, needs no copy. The dummies are pointers, which never get a temporary:
-! that would die on return, while the library still borrows it. They bring their lower bounds with them.
-! Given a component of an array of a derived type, gfortran passes that array's description: the elements would be those
-! of the first component. A pointer is not associated with its own section then, by which such an array is known here.
+! of a larger array, also one that runs backwards, needs no copy. The dummies are assumed-shape and never contiguous:
+! a contiguous one would get a temporary that dies on return, while the library still borrows it.
 module tetlod_arrays
-  use, intrinsic :: iso_c_binding, only: c_int32_t, c_int64_t, c_intptr_t, c_loc, c_null_ptr, c_ptr, &
-    c_associated, c_sizeof
+  use, intrinsic :: iso_c_binding, only: c_int32_t, c_int64_t, c_intptr_t, c_loc, c_null_ptr, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int8, int32, int64, real32, real64
   use tetlod_types, only: tetlod_array, TETLOD_FLOAT32, TETLOD_FLOAT64, TETLOD_INT32, TETLOD_INT64, TETLOD_UINT8
   implicit none
   private
-  public :: array_of, empty_array, is_in_place
+  public :: array_of, empty_array
 
   ! Of an array (n): n tuples of one component; of an array (k, n): n tuples of k components.
   interface array_of
@@ -24,13 +21,6 @@ contains
   pure function empty_array() result(array)
     type(tetlod_array) :: array
     array%struct_size = int(c_sizeof(array), c_int32_t)
-  end function
-
-  ! Whether array_of could describe it: not a null pointer, nor an array that the compiler passes as another one.
-  elemental function is_in_place(array)
-    type(tetlod_array), intent(in) :: array
-    logical :: is_in_place
-    is_in_place = array%tuples == 0 .or. array%components == 0 .or. c_associated(array%data)
   end function
 
   ! Bytes from one element to the next. A dimension of one element has no next: 0, which the library reads as packed.
@@ -63,135 +53,94 @@ contains
     array%data = c_null_ptr
   end function
 
-  ! What C refuses, as it does a null pointer.
-  function nowhere(type) result(array)
-    integer(c_int32_t), intent(in) :: type
-    type(tetlod_array) :: array
-    array = shaped(type, 1_c_int64_t, 1_c_int64_t)
-  end function
-
   function r32_values(a) result(array)
-    real(real32), pointer, intent(in) :: a(:)
+    real(real32), intent(in), target :: a(:)
     type(tetlod_array) :: array
-    integer(c_int64_t) :: n, i
-    array = nowhere(TETLOD_FLOAT32)
-    if (.not. associated(a)) return
+    integer(c_int64_t) :: n
     n = size(a, kind=c_int64_t)
-    i = lbound(a, 1, kind=c_int64_t)
-    if (n == 0) array = shaped(TETLOD_FLOAT32, 1_c_int64_t, n)
-    if (associated(a, a(:))) array = described(TETLOD_FLOAT32, 1_c_int64_t, n, c_loc(a(i)), c_loc(a(i)), &
-      c_loc(a(min(i + 1, i + n - 1))))
+    array = shaped(TETLOD_FLOAT32, 1_c_int64_t, n)
+    if (n > 0) array = described(TETLOD_FLOAT32, 1_c_int64_t, n, c_loc(a(1)), c_loc(a(1)), &
+      c_loc(a(min(2_c_int64_t, n))))
   end function
 
   function r32_tuples(a) result(array)
-    real(real32), pointer, intent(in) :: a(:, :)
+    real(real32), intent(in), target :: a(:, :)
     type(tetlod_array) :: array
-    integer(c_int64_t) :: k, n, i, j
-    array = nowhere(TETLOD_FLOAT32)
-    if (.not. associated(a)) return
+    integer(c_int64_t) :: k, n
     k = size(a, 1, kind=c_int64_t)
     n = size(a, 2, kind=c_int64_t)
-    i = lbound(a, 1, kind=c_int64_t)
-    j = lbound(a, 2, kind=c_int64_t)
-    if (k == 0 .or. n == 0) array = shaped(TETLOD_FLOAT32, k, n)
-    if (associated(a, a(:, :))) array = described(TETLOD_FLOAT32, k, n, c_loc(a(i, j)), &
-      c_loc(a(min(i + 1, i + k - 1), j)), c_loc(a(i, min(j + 1, j + n - 1))))
+    array = shaped(TETLOD_FLOAT32, k, n)
+    if (k > 0 .and. n > 0) array = described(TETLOD_FLOAT32, k, n, c_loc(a(1, 1)), c_loc(a(min(2_c_int64_t, k), 1)), &
+      c_loc(a(1, min(2_c_int64_t, n))))
   end function
 
   function r64_values(a) result(array)
-    real(real64), pointer, intent(in) :: a(:)
+    real(real64), intent(in), target :: a(:)
     type(tetlod_array) :: array
-    integer(c_int64_t) :: n, i
-    array = nowhere(TETLOD_FLOAT64)
-    if (.not. associated(a)) return
+    integer(c_int64_t) :: n
     n = size(a, kind=c_int64_t)
-    i = lbound(a, 1, kind=c_int64_t)
-    if (n == 0) array = shaped(TETLOD_FLOAT64, 1_c_int64_t, n)
-    if (associated(a, a(:))) array = described(TETLOD_FLOAT64, 1_c_int64_t, n, c_loc(a(i)), c_loc(a(i)), &
-      c_loc(a(min(i + 1, i + n - 1))))
+    array = shaped(TETLOD_FLOAT64, 1_c_int64_t, n)
+    if (n > 0) array = described(TETLOD_FLOAT64, 1_c_int64_t, n, c_loc(a(1)), c_loc(a(1)), &
+      c_loc(a(min(2_c_int64_t, n))))
   end function
 
   function r64_tuples(a) result(array)
-    real(real64), pointer, intent(in) :: a(:, :)
+    real(real64), intent(in), target :: a(:, :)
     type(tetlod_array) :: array
-    integer(c_int64_t) :: k, n, i, j
-    array = nowhere(TETLOD_FLOAT64)
-    if (.not. associated(a)) return
+    integer(c_int64_t) :: k, n
     k = size(a, 1, kind=c_int64_t)
     n = size(a, 2, kind=c_int64_t)
-    i = lbound(a, 1, kind=c_int64_t)
-    j = lbound(a, 2, kind=c_int64_t)
-    if (k == 0 .or. n == 0) array = shaped(TETLOD_FLOAT64, k, n)
-    if (associated(a, a(:, :))) array = described(TETLOD_FLOAT64, k, n, c_loc(a(i, j)), &
-      c_loc(a(min(i + 1, i + k - 1), j)), c_loc(a(i, min(j + 1, j + n - 1))))
+    array = shaped(TETLOD_FLOAT64, k, n)
+    if (k > 0 .and. n > 0) array = described(TETLOD_FLOAT64, k, n, c_loc(a(1, 1)), c_loc(a(min(2_c_int64_t, k), 1)), &
+      c_loc(a(1, min(2_c_int64_t, n))))
   end function
 
   function i8_values(a) result(array)
-    integer(int8), pointer, intent(in) :: a(:)
+    integer(int8), intent(in), target :: a(:)
     type(tetlod_array) :: array
-    integer(c_int64_t) :: n, i
-    array = nowhere(TETLOD_UINT8)
-    if (.not. associated(a)) return
+    integer(c_int64_t) :: n
     n = size(a, kind=c_int64_t)
-    i = lbound(a, 1, kind=c_int64_t)
-    if (n == 0) array = shaped(TETLOD_UINT8, 1_c_int64_t, n)
-    if (associated(a, a(:))) array = described(TETLOD_UINT8, 1_c_int64_t, n, c_loc(a(i)), c_loc(a(i)), &
-      c_loc(a(min(i + 1, i + n - 1))))
+    array = shaped(TETLOD_UINT8, 1_c_int64_t, n)
+    if (n > 0) array = described(TETLOD_UINT8, 1_c_int64_t, n, c_loc(a(1)), c_loc(a(1)), c_loc(a(min(2_c_int64_t, n))))
   end function
 
   function i32_values(a) result(array)
-    integer(int32), pointer, intent(in) :: a(:)
+    integer(int32), intent(in), target :: a(:)
     type(tetlod_array) :: array
-    integer(c_int64_t) :: n, i
-    array = nowhere(TETLOD_INT32)
-    if (.not. associated(a)) return
+    integer(c_int64_t) :: n
     n = size(a, kind=c_int64_t)
-    i = lbound(a, 1, kind=c_int64_t)
-    if (n == 0) array = shaped(TETLOD_INT32, 1_c_int64_t, n)
-    if (associated(a, a(:))) array = described(TETLOD_INT32, 1_c_int64_t, n, c_loc(a(i)), c_loc(a(i)), &
-      c_loc(a(min(i + 1, i + n - 1))))
+    array = shaped(TETLOD_INT32, 1_c_int64_t, n)
+    if (n > 0) array = described(TETLOD_INT32, 1_c_int64_t, n, c_loc(a(1)), c_loc(a(1)), c_loc(a(min(2_c_int64_t, n))))
   end function
 
   function i32_tuples(a) result(array)
-    integer(int32), pointer, intent(in) :: a(:, :)
+    integer(int32), intent(in), target :: a(:, :)
     type(tetlod_array) :: array
-    integer(c_int64_t) :: k, n, i, j
-    array = nowhere(TETLOD_INT32)
-    if (.not. associated(a)) return
+    integer(c_int64_t) :: k, n
     k = size(a, 1, kind=c_int64_t)
     n = size(a, 2, kind=c_int64_t)
-    i = lbound(a, 1, kind=c_int64_t)
-    j = lbound(a, 2, kind=c_int64_t)
-    if (k == 0 .or. n == 0) array = shaped(TETLOD_INT32, k, n)
-    if (associated(a, a(:, :))) array = described(TETLOD_INT32, k, n, c_loc(a(i, j)), &
-      c_loc(a(min(i + 1, i + k - 1), j)), c_loc(a(i, min(j + 1, j + n - 1))))
+    array = shaped(TETLOD_INT32, k, n)
+    if (k > 0 .and. n > 0) array = described(TETLOD_INT32, k, n, c_loc(a(1, 1)), c_loc(a(min(2_c_int64_t, k), 1)), &
+      c_loc(a(1, min(2_c_int64_t, n))))
   end function
 
   function i64_values(a) result(array)
-    integer(int64), pointer, intent(in) :: a(:)
+    integer(int64), intent(in), target :: a(:)
     type(tetlod_array) :: array
-    integer(c_int64_t) :: n, i
-    array = nowhere(TETLOD_INT64)
-    if (.not. associated(a)) return
+    integer(c_int64_t) :: n
     n = size(a, kind=c_int64_t)
-    i = lbound(a, 1, kind=c_int64_t)
-    if (n == 0) array = shaped(TETLOD_INT64, 1_c_int64_t, n)
-    if (associated(a, a(:))) array = described(TETLOD_INT64, 1_c_int64_t, n, c_loc(a(i)), c_loc(a(i)), &
-      c_loc(a(min(i + 1, i + n - 1))))
+    array = shaped(TETLOD_INT64, 1_c_int64_t, n)
+    if (n > 0) array = described(TETLOD_INT64, 1_c_int64_t, n, c_loc(a(1)), c_loc(a(1)), c_loc(a(min(2_c_int64_t, n))))
   end function
 
   function i64_tuples(a) result(array)
-    integer(int64), pointer, intent(in) :: a(:, :)
+    integer(int64), intent(in), target :: a(:, :)
     type(tetlod_array) :: array
-    integer(c_int64_t) :: k, n, i, j
-    array = nowhere(TETLOD_INT64)
-    if (.not. associated(a)) return
+    integer(c_int64_t) :: k, n
     k = size(a, 1, kind=c_int64_t)
     n = size(a, 2, kind=c_int64_t)
-    i = lbound(a, 1, kind=c_int64_t)
-    j = lbound(a, 2, kind=c_int64_t)
-    if (k == 0 .or. n == 0) array = shaped(TETLOD_INT64, k, n)
-    if (associated(a, a(:, :))) array = described(TETLOD_INT64, k, n, c_loc(a(i, j)), &
-      c_loc(a(min(i + 1, i + k - 1), j)), c_loc(a(i, min(j + 1, j + n - 1))))
+    array = shaped(TETLOD_INT64, k, n)
+    if (k > 0 .and. n > 0) array = described(TETLOD_INT64, k, n, c_loc(a(1, 1)), c_loc(a(min(2_c_int64_t, k), 1)), &
+      c_loc(a(1, min(2_c_int64_t, n))))
   end function
 end module

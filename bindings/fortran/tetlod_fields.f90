@@ -29,12 +29,10 @@ contains
   ! flags(n): TETLOD_FLAG_KEEP, TETLOD_FLAG_LOCK or 0 a point; borrowed.
   subroutine submit_point_flags(this, flags, stat, errmsg)
     class(tetlod_fields), intent(inout) :: this
-    integer(int8), pointer, intent(in) :: flags(:)
+    integer(int8), intent(in), target :: flags(:)
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    type(tetlod_array) :: lent
-    lent = array_of(flags)
-    call this%settle_lent(c_submit_point_flags(this%c_handle(), lent), [lent], stat, errmsg)
+    call this%settle(c_submit_point_flags(this%c_handle(), array_of(flags)), stat, errmsg)
   end subroutine
 
   ! values(n): a further field that steers, its errors weighted by weight (0 to 1e6); borrowed.
@@ -42,14 +40,12 @@ contains
     class(tetlod_fields), intent(inout) :: this
     character(len=*), intent(in) :: name
     real(real64), intent(in) :: weight
-    real(real32), pointer, intent(in) :: values(:)
+    real(real32), intent(in), target :: values(:)
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    type(tetlod_array) :: lent
     character(kind=c_char), target :: text(len_trim(name) + 1)
     text = c_text(name)
-    lent = array_of(values)
-    call this%settle_lent(c_submit_steering(this%c_handle(), c_loc(text), weight, lent), [lent], stat, errmsg)
+    call this%settle(c_submit_steering(this%c_handle(), c_loc(text), weight, array_of(values)), stat, errmsg)
   end subroutine
 
   ! values(components, n), a tuple a point or a tet by association: TETLOD_POINT_FIELD, TETLOD_CELL_FIELD; borrowed.
@@ -57,14 +53,12 @@ contains
     class(tetlod_fields), intent(inout) :: this
     character(len=*), intent(in) :: name
     integer(c_int32_t), intent(in) :: association
-    real(real32), pointer, intent(in) :: values(:, :)
+    real(real32), intent(in), target :: values(:, :)
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    type(tetlod_array) :: lent
     character(kind=c_char), target :: text(len_trim(name) + 1)
     text = c_text(name)
-    lent = array_of(values)
-    call this%settle_lent(c_submit_field(this%c_handle(), c_loc(text), association, lent), [lent], stat, errmsg)
+    call this%settle(c_submit_field(this%c_handle(), c_loc(text), association, array_of(values)), stat, errmsg)
   end subroutine
 
   ! values(components, n), with room for the result's points or tets.
@@ -98,14 +92,12 @@ contains
     class(tetlod_fields), intent(inout) :: this
     character(len=*), intent(in) :: name
     real(real64), intent(in) :: weight
-    real(real64), pointer, intent(in) :: values(:)
+    real(real64), intent(in), target :: values(:)
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    type(tetlod_array) :: lent
     character(kind=c_char), target :: text(len_trim(name) + 1)
     text = c_text(name)
-    lent = array_of(values)
-    call this%settle_lent(c_submit_steering(this%c_handle(), c_loc(text), weight, lent), [lent], stat, errmsg)
+    call this%settle(c_submit_steering(this%c_handle(), c_loc(text), weight, array_of(values)), stat, errmsg)
   end subroutine
 
   ! values(components, n), a tuple a point or a tet by association: TETLOD_POINT_FIELD, TETLOD_CELL_FIELD; borrowed.
@@ -113,14 +105,12 @@ contains
     class(tetlod_fields), intent(inout) :: this
     character(len=*), intent(in) :: name
     integer(c_int32_t), intent(in) :: association
-    real(real64), pointer, intent(in) :: values(:, :)
+    real(real64), intent(in), target :: values(:, :)
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    type(tetlod_array) :: lent
     character(kind=c_char), target :: text(len_trim(name) + 1)
     text = c_text(name)
-    lent = array_of(values)
-    call this%settle_lent(c_submit_field(this%c_handle(), c_loc(text), association, lent), [lent], stat, errmsg)
+    call this%settle(c_submit_field(this%c_handle(), c_loc(text), association, array_of(values)), stat, errmsg)
   end subroutine
 
   ! values(components, n), with room for the result's points or tets.

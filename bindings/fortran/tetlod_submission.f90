@@ -1,18 +1,16 @@
 ! Lending a mesh and its values. Nothing is copied: the actual arguments must live, unchanged in place and shape, until
-! the same is submitted again, clear, or destroy. They are pointers, or have the target attribute: an expression or an
-! array that is no target does not compile, and one with a vector subscript, which the standard forbids, must not be
-! given even where the compiler takes it. Sections are read in place, also backward ones. A component of an array of a
-! derived type goes through a pointer to a section, p => nodes(:)%x: gfortran passes nodes%x wrongly, p => nodes%x may
-! look the same, and both are refused.
+! the same is submitted again, clear, or destroy. Give them the target attribute; sections (also backward ones) are
+! read in place, while an expression or a vector subscript is a temporary that dies on return, and must not be given.
+! Nor must a component of an array of a derived type, nodes%x, of which gfortran makes a temporary as well; lend a
+! section of a view of the same memory: call c_f_pointer(c_loc(nodes), raw, [reals_a_node, n]), then raw(1:3, :).
 module tetlod_submission
   use, intrinsic :: iso_c_binding, only: c_int32_t, c_int64_t, c_sizeof, c_char, c_loc
   use, intrinsic :: iso_fortran_env, only: int32, int64, real32, real64
-  use tetlod_arrays, only: array_of, is_in_place
+  use tetlod_arrays, only: array_of
   use tetlod_c
-  use tetlod_lifetime, only: conclude
   use tetlod_settings, only: tetlod_options
   use tetlod_text, only: c_text
-  use tetlod_types, only: tetlod_array, tetlod_mesh_report, TETLOD_ERR_ARGUMENT
+  use tetlod_types, only: tetlod_mesh_report
   implicit none
   private
 
@@ -25,7 +23,6 @@ module tetlod_submission
     procedure :: clear
     procedure :: check
     procedure :: estimate_memory
-    procedure :: settle_lent
     procedure, private :: submit_points_r32, submit_points_r64, submit_points_xyz_r32, submit_points_xyz_r64
     procedure, private :: submit_tets_i32, submit_tets_i64, submit_scalars_r32, submit_scalars_r64
   end type
@@ -35,118 +32,87 @@ contains
   ! xyz(3, n).
   subroutine submit_points_r32(this, xyz, stat, errmsg)
     class(tetlod_input), intent(inout) :: this
-    real(real32), pointer, intent(in) :: xyz(:, :)
+    real(real32), intent(in), target :: xyz(:, :)
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    type(tetlod_array) :: lent
-    lent = array_of(xyz)
-    call this%settle_lent(c_submit_points(this%c_handle(), lent), [lent], stat, errmsg)
+    call this%settle(c_submit_points(this%c_handle(), array_of(xyz)), stat, errmsg)
   end subroutine
 
   ! xyz(3, n).
   subroutine submit_points_r64(this, xyz, stat, errmsg)
     class(tetlod_input), intent(inout) :: this
-    real(real64), pointer, intent(in) :: xyz(:, :)
+    real(real64), intent(in), target :: xyz(:, :)
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    type(tetlod_array) :: lent
-    lent = array_of(xyz)
-    call this%settle_lent(c_submit_points(this%c_handle(), lent), [lent], stat, errmsg)
+    call this%settle(c_submit_points(this%c_handle(), array_of(xyz)), stat, errmsg)
   end subroutine
 
   ! x(n), y(n), z(n); for an array xyz(n, 3): xyz(:, 1), xyz(:, 2), xyz(:, 3).
   subroutine submit_points_xyz_r32(this, x, y, z, stat, errmsg)
     class(tetlod_input), intent(inout) :: this
-    real(real32), pointer, intent(in) :: x(:), y(:), z(:)
+    real(real32), intent(in), target :: x(:), y(:), z(:)
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    type(tetlod_array) :: lent(3)
-    lent = [array_of(x), array_of(y), array_of(z)]
-    call this%settle_lent(c_submit_points_xyz(this%c_handle(), lent(1), lent(2), lent(3)), lent, stat, errmsg)
+    call this%settle(c_submit_points_xyz(this%c_handle(), array_of(x), array_of(y), array_of(z)), stat, errmsg)
   end subroutine
 
   ! x(n), y(n), z(n); for an array xyz(n, 3): xyz(:, 1), xyz(:, 2), xyz(:, 3).
   subroutine submit_points_xyz_r64(this, x, y, z, stat, errmsg)
     class(tetlod_input), intent(inout) :: this
-    real(real64), pointer, intent(in) :: x(:), y(:), z(:)
+    real(real64), intent(in), target :: x(:), y(:), z(:)
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    type(tetlod_array) :: lent(3)
-    lent = [array_of(x), array_of(y), array_of(z)]
-    call this%settle_lent(c_submit_points_xyz(this%c_handle(), lent(1), lent(2), lent(3)), lent, stat, errmsg)
+    call this%settle(c_submit_points_xyz(this%c_handle(), array_of(x), array_of(y), array_of(z)), stat, errmsg)
   end subroutine
 
   ! tets(4, m); index_base 1 (the default) or 0 is the number of the first point.
   subroutine submit_tets_i32(this, tets, index_base, stat, errmsg)
     class(tetlod_input), intent(inout) :: this
-    integer(int32), pointer, intent(in) :: tets(:, :)
+    integer(int32), intent(in), target :: tets(:, :)
     integer, intent(in), optional :: index_base
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    type(tetlod_array) :: lent
     integer(c_int32_t) :: base
     base = 1
     if (present(index_base)) base = int(index_base, c_int32_t)
-    lent = array_of(tets)
-    call this%settle_lent(c_submit_tets(this%c_handle(), lent, base), [lent], stat, errmsg)
+    call this%settle(c_submit_tets(this%c_handle(), array_of(tets), base), stat, errmsg)
   end subroutine
 
   ! tets(4, m); index_base 1 (the default) or 0 is the number of the first point.
   subroutine submit_tets_i64(this, tets, index_base, stat, errmsg)
     class(tetlod_input), intent(inout) :: this
-    integer(int64), pointer, intent(in) :: tets(:, :)
+    integer(int64), intent(in), target :: tets(:, :)
     integer, intent(in), optional :: index_base
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    type(tetlod_array) :: lent
     integer(c_int32_t) :: base
     base = 1
     if (present(index_base)) base = int(index_base, c_int32_t)
-    lent = array_of(tets)
-    call this%settle_lent(c_submit_tets(this%c_handle(), lent, base), [lent], stat, errmsg)
+    call this%settle(c_submit_tets(this%c_handle(), array_of(tets), base), stat, errmsg)
   end subroutine
 
   ! values(n): the field that steers the simplification.
   subroutine submit_scalars_r32(this, name, values, stat, errmsg)
     class(tetlod_input), intent(inout) :: this
     character(len=*), intent(in) :: name
-    real(real32), pointer, intent(in) :: values(:)
+    real(real32), intent(in), target :: values(:)
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    type(tetlod_array) :: lent
     character(kind=c_char), target :: text(len_trim(name) + 1)
     text = c_text(name)
-    lent = array_of(values)
-    call this%settle_lent(c_submit_scalars(this%c_handle(), c_loc(text), lent), [lent], stat, errmsg)
+    call this%settle(c_submit_scalars(this%c_handle(), c_loc(text), array_of(values)), stat, errmsg)
   end subroutine
 
   ! values(n): the field that steers the simplification.
   subroutine submit_scalars_r64(this, name, values, stat, errmsg)
     class(tetlod_input), intent(inout) :: this
     character(len=*), intent(in) :: name
-    real(real64), pointer, intent(in) :: values(:)
+    real(real64), intent(in), target :: values(:)
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    type(tetlod_array) :: lent
     character(kind=c_char), target :: text(len_trim(name) + 1)
     text = c_text(name)
-    lent = array_of(values)
-    call this%settle_lent(c_submit_scalars(this%c_handle(), c_loc(text), lent), [lent], stat, errmsg)
-  end subroutine
-
-  ! The end of a submission. An array without an address was refused by C, which cannot say more than that.
-  subroutine settle_lent(this, status, lent, stat, errmsg)
-    class(tetlod_input), intent(in) :: this
-    integer(c_int32_t), intent(in) :: status
-    type(tetlod_array), intent(in) :: lent(:)
-    integer, intent(out), optional :: stat
-    character(len=*), intent(inout), optional :: errmsg
-    if (all(is_in_place(lent))) then
-      call this%settle(status, stat, errmsg)
-    else
-      call conclude(TETLOD_ERR_ARGUMENT, "submit: a null pointer, or a component that the compiler does not pass "// &
-        "in place: lend p => nodes(:)%x instead of nodes%x", stat, errmsg)
-    end if
+    call this%settle(c_submit_scalars(this%c_handle(), c_loc(text), array_of(values)), stat, errmsg)
   end subroutine
 
   ! Gives back what was submitted, keeps options and the last result.
