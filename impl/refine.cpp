@@ -1,6 +1,7 @@
 #include "refine.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "adaptive_mesh.hpp"
@@ -96,7 +97,7 @@ class Refinement {
   void move(std::size_t first) { move_vertices(first, job_, mesh_); }
   /// More faces become edges than edges faces; where that makes too many tets, a tet has to gain more.
   void flip() {
-    double price = price_of_tet * mean_error();
+    double price = price_of_tet * std::max(mean_error(), square_of_rounding());
     flip_tets(price, job_, mesh_);
     for (int i = 0; i < dearer_sweeps && count() > options_.before_lowering; i++)
       flip_tets(price *= dearer, job_, mesh_);
@@ -108,6 +109,14 @@ class Refinement {
 
   std::int64_t count() const { return std::int64_t(mesh_.count()); }
   double mean_error() const { return mesh_.total_error() / double(mesh_.count()); }
+
+  /// Of the values: errors that are no more are none, and nothing that a tet could be worth.
+  double square_of_rounding() const {
+    constexpr double rounding = 1e-14;
+    double largest = 0;
+    for (const Values<m> &values : mesh_.values) largest = std::max(largest, std::abs(values[0]));
+    return rounding * rounding * largest * largest;
+  }
 
   void count_points() {
     const std::size_t first_steiner = first_inserted_ - std::size_t(options_.steiner);
