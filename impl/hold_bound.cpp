@@ -25,8 +25,8 @@ constexpr double at_corner = 1e-6, near_corner = 1e-3;
 constexpr double flattest = 1e-11;
 /// That a vertex inside a tet brings.
 constexpr std::int64_t tets_a_vertex = 3;
-/// Sweeps that also flip; the sweeps after them insert alone, which ends.
-constexpr int flipping_sweeps = 3;
+/// Sweeps that also flip, and in which values give way; the sweeps after them insert alone, which ends.
+constexpr int flipping_sweeps = 3, yielding_sweeps = 12;
 
 template <std::size_t m>
 double error_at(const AdaptiveMesh<m> &mesh, const TetFrame &frame, std::int32_t t, std::int32_t p) {
@@ -70,11 +70,10 @@ class LargestErrors {
  public:
   LargestErrors(Job &job, AdaptiveMesh<m> &mesh) : job_(job), mesh_(mesh), around_(&job.memory), left_(&job.memory) {}
 
-  /// Ends: there are so many vertices to insert, and values that give way bring no probe beyond the bound.
   Array<std::int32_t> hold(double bound) {
     for (std::size_t p = 0; p < mesh_.vertex_probes; p++) range_.add(mesh_.probes[p].value);
     for (int sweep = 0;; sweep++) {
-      const std::int64_t served = serve_beyond((1 - margin) * bound);
+      const std::int64_t served = serve_beyond((1 - margin) * bound, sweep < yielding_sweeps);
       if (served == 0) return std::move(left_);
       if (sweep < flipping_sweeps) flip_tets(mesh_.total_error() / double(mesh_.count()), job_, mesh_);
     }
@@ -102,7 +101,7 @@ class LargestErrors {
 
  private:
   /// How many probes; left_ are the vertices of those that could not be.
-  std::int64_t serve_beyond(double bound) {
+  std::int64_t serve_beyond(double bound, bool values_yield) {
     std::int64_t done = 0;
     left_.clear();
     const std::size_t count = mesh_.tets.size();
@@ -112,7 +111,7 @@ class LargestErrors {
       const LargestError worst = largest_in(mesh_, std::int32_t(t));
       if (worst.value <= bound) continue;
       const auto probe = std::int32_t(worst.probe);
-      if (give_way(std::int32_t(t), probe, bound, range_, mesh_) ||
+      if ((values_yield && give_way(std::int32_t(t), probe, bound, range_, mesh_)) ||
           serve(std::int32_t(t), mesh_.probes[std::size_t(probe)]))
         done++;
       else

@@ -279,6 +279,19 @@ TEST_F(TargetedRun, NeverHasMoreTetsThanTheOriginal) {
   EXPECT_LE(mesh().tets.size(), original.tets.size());
 }
 
+/// Values have no digits for a step that would hold the bound to the last of them.
+TEST_F(TargetedRun, HoldsABoundOfAFieldThatIsSmallBesideItsOffset) {
+  Mesh original = kuhn_cube(10);
+  set_scalars(original, [](const Vec3 &p) { return 1e9 + 1e-4 * waves(p); });
+  options.max_error = 0.01;
+  for (std::int64_t effort : {effort_fast, effort_accurate}) {
+    collapse(effort);
+    simplify(original);
+    expect_sound(original, 1e-3);
+    EXPECT_LE(report().max_error, options.max_error);
+  }
+}
+
 /// Noise that only all of the vertices tell, where collapses lead nowhere, or insertions to more tets than there were.
 TEST_F(TargetedRun, HoldsABoundThatTakesTheWholeMesh) {
   std::mt19937_64 random(1);
