@@ -36,8 +36,11 @@ class Steps {
     for (std::size_t i = 0; i < m; i++) steps_[i] = {range.low[i] - values[i], range.high[i] - values[i]};
   }
 
+  /// Differences of the largest doubles are none.
   bool exist() const {
-    return std::all_of(steps_.begin(), steps_.end(), [](const Step &step) { return step.low <= step.high; });
+    return std::all_of(steps_.begin(), steps_.end(), [](const Step &step) {
+      return step.low <= step.high && std::isfinite(step.low) && std::isfinite(step.high);
+    });
   }
 
   /// The bound at a probe of tet t; where it is none that must, an error beyond it may stay as it is.
@@ -102,7 +105,9 @@ bool give_way(std::int32_t t, std::int32_t probe, double bound, const ValueRange
     steps.hold_around(around, bound);
     if (!steps.exist()) continue;
     const Values<m> least = steps.least();
-    for (std::size_t i = 0; i < m; i++) mesh.values[std::size_t(v)][i] += least[i];
+    Values<m> &values = mesh.values[std::size_t(v)];
+    for (std::size_t i = 0; i < m; i++) values[i] += least[i];
+    values = range.clamp(values);  // a sum may round beyond it
     for (std::int32_t at : around) mesh.measure(at);
     return true;
   }
