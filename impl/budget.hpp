@@ -91,7 +91,7 @@ inline Budget larger_budget(double ratio, double sigma, const Report &report) {
   return budget;
 }
 
-/// There is no larger budget: where edges collapse, none would.
+/// There is no larger budget: no less can be decimated, and, where edges collapse, none would.
 inline bool is_whole(const Budget &budget, const Options &options, const Report &report) {
   return budget.sigma >= 1 &&
          (!collapses_edges(options, report) || budget.tets >= report.tets_in - report.dropped_tets);

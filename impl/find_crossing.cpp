@@ -3,6 +3,7 @@
 #include <array>
 
 #include "geometry.hpp"
+#include "host_numbers.hpp"
 #include "kd_tree.hpp"
 #include "predicates.hpp"
 #include "status.hpp"
@@ -23,8 +24,11 @@ bool cross(const Surface &surface, std::int32_t a, std::int32_t b) {
                           surface.triangles[std::size_t(b)]);
 }
 
-long long origin(const Surface &surface, std::int32_t triangle, std::size_t k, std::int32_t index_base) {
-  return surface.origin[std::size_t(surface.triangles[std::size_t(triangle)][k])] + index_base;
+/// What the host calls the corners of a triangle.
+std::array<long long, 3> names(const Surface &surface, std::int32_t triangle, std::int32_t index_base) {
+  const HostNumbers numbers = numbers_of(surface, index_base);
+  const Triangle &t = surface.triangles[std::size_t(triangle)];
+  return {numbers.vertex(t[0]), numbers.vertex(t[1]), numbers.vertex(t[2])};
 }
 
 /// The winding number in the middle of a triangle: one half on a sound surface, where material is on one side and none
@@ -68,12 +72,10 @@ std::pair<std::int32_t, std::int32_t> find_crossing(const Surface &surface, Job 
 void refuse_crossing(const Surface &surface, std::int32_t index_base, Job &job) {
   const auto [a, b] = find_crossing(surface, job);
   if (a < 0) return;
-  const auto at = [&, first = a, second = b](bool of_first, std::size_t k) {
-    return origin(surface, of_first ? first : second, k, index_base);
-  };
+  const std::array<long long, 3> first = names(surface, a, index_base), second = names(surface, b, index_base);
   fail(Status::mesh_intersecting,
        "the boundary crosses itself: its faces of vertices %lld, %lld, %lld and of vertices %lld, %lld, %lld meet",
-       at(true, 0), at(true, 1), at(true, 2), at(false, 0), at(false, 1), at(false, 2));
+       first[0], first[1], first[2], second[0], second[1], second[2]);
 }
 
 void refuse_nested_solids(const Surface &surface, const SurfaceTopology &topology, std::int32_t index_base, Job &job) {
@@ -84,9 +86,10 @@ void refuse_nested_solids(const Surface &surface, const SurfaceTopology &topolog
     job.poll(1);
     const double sides = winding_on(surface, t);
     if (sides > 0 && sides < 1) continue;
+    const std::array<long long, 3> face = names(surface, t, index_base);
     fail(Status::mesh_intersecting,
-         "solids overlap: the boundary face of vertices %lld, %lld, %lld lies in another solid",
-         origin(surface, t, 0, index_base), origin(surface, t, 1, index_base), origin(surface, t, 2, index_base));
+         "solids overlap: the boundary face of vertices %lld, %lld, %lld lies in another solid", face[0], face[1],
+         face[2]);
   }
 }
 

@@ -31,9 +31,12 @@ struct Step {
 template <std::size_t m>
 class Steps {
  public:
-  Steps(const AdaptiveMesh<m> &mesh, std::int32_t v, const ValueRange<m> &range) : mesh_(mesh), v_(v) {
+  Steps(const AdaptiveMesh<m> &mesh, std::int32_t v, const ValueRange<m> &range, double bound) : mesh_(mesh), v_(v) {
     const Values<m> &values = mesh.values[std::size_t(v)];
-    for (std::size_t i = 0; i < m; i++) steps_[i] = {range.low[i] - values[i], range.high[i] - values[i]};
+    for (std::size_t i = 0; i < m; i++) {
+      steps_[i] = {range.low[i] - values[i], range.high[i] - values[i]};
+      limits_[i] = (1 - rounding) * bound / mesh.scales.relative[i];
+    }
   }
 
   /// Differences of the largest doubles are none.
@@ -43,25 +46,19 @@ class Steps {
     });
   }
 
-  /// The bound at a probe of tet t; where it is none that must, an error beyond it may stay as it is.
-  void hold(std::int32_t t, const TetFrame &frame, std::int32_t probe, double bound, bool must) {
-    const Tet &tet = mesh_.tets[std::size_t(t)];
-    const Probe<m> &at = mesh_.probes[std::size_t(probe)];
-    double w[4];
-    frame.weights(at.point, w);
-    const Values<m> r = mesh_.residual(tet, w, at);
-    const double weight = w[std::find(tet.begin(), tet.end(), v_) - tet.begin()];
-    for (std::size_t i = 0; i < m; i++) {
-      const double limit = (1 - rounding) * bound / mesh_.scales.relative[i];
-      steps_[i].hold(r[i], weight, must ? limit : std::max(limit, std::abs(r[i])));
-    }
+  /// The bound at a probe of tet t.
+  void hold(std::int32_t t, std::int32_t probe) {
+    hold(t, mesh_.frame(t), corner_in(t), probe, [](double limit, double) { return limit; });
   }
 
-  void hold_around(Span<const std::int32_t> tets, double bound) {
+  /// The bound at all vertices in the tets around; errors beyond it may stay as they are.
+  void hold_around(Span<const std::int32_t> tets) {
     for (std::int32_t t : tets) {
       const TetFrame frame = mesh_.frame(t);
+      const std::size_t corner = corner_in(t);
       mesh_.for_probes(t, [&](std::int32_t p) {
-        if (std::size_t(p) < mesh_.vertex_probes) hold(t, frame, p, bound, false);
+        if (std::size_t(p) < mesh_.vertex_probes)
+          hold(t, frame, corner, p, [](double limit, double r) { return std::max(limit, std::abs(r)); });
       });
       if (!exist()) return;
     }
@@ -74,8 +71,23 @@ class Steps {
   }
 
  private:
+  std::size_t corner_in(std::int32_t t) const {
+    const Tet &tet = mesh_.tets[std::size_t(t)];
+    return std::size_t(std::find(tet.begin(), tet.end(), v_) - tet.begin());
+  }
+
+  template <class LimitOf>
+  void hold(std::int32_t t, const TetFrame &frame, std::size_t corner, std::int32_t probe, const LimitOf &limit_of) {
+    const Probe<m> &at = mesh_.probes[std::size_t(probe)];
+    double w[4];
+    frame.weights(at.point, w);
+    const Values<m> r = mesh_.residual(mesh_.tets[std::size_t(t)], w, at);
+    for (std::size_t i = 0; i < m; i++) steps_[i].hold(r[i], w[corner], limit_of(limits_[i], r[i]));
+  }
+
   const AdaptiveMesh<m> &mesh_;
   std::int32_t v_;
+  Values<m> limits_;  // of the errors
   std::array<Step, m> steps_;
 };
 
@@ -89,20 +101,19 @@ bool may_change(const AdaptiveMesh<m> &mesh, std::int32_t v) {
 
 template <std::size_t m>
 bool give_way(std::int32_t t, std::int32_t probe, double bound, const ValueRange<m> &range, AdaptiveMesh<m> &mesh) {
-  const TetFrame frame = mesh.frame(t);
   double w[4];
-  frame.weights(mesh.probes[std::size_t(probe)].point, w);
+  mesh.frame(t).weights(mesh.probes[std::size_t(probe)].point, w);
   std::array<std::size_t, 4> order{0, 1, 2, 3};
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return w[a] > w[b]; });
   Array<std::int32_t> around(&mesh.memory());
   for (std::size_t k : order) {
     const std::int32_t v = mesh.tets[std::size_t(t)][k];
     if (w[k] < least_weight || !may_change(mesh, v)) continue;
-    Steps<m> steps(mesh, v, range);
-    steps.hold(t, frame, probe, bound, true);
+    Steps<m> steps(mesh, v, range, bound);
+    steps.hold(t, probe);
     if (!steps.exist()) continue;
     mesh.star(v, around);
-    steps.hold_around(around, bound);
+    steps.hold_around(around);
     if (!steps.exist()) continue;
     const Values<m> least = steps.least();
     Values<m> &values = mesh.values[std::size_t(v)];

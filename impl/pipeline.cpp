@@ -75,37 +75,43 @@ class Pipeline {
     }
   }
 
-  /// False: the bound does not hold, or takes more tets than the whole mesh has, which holds it, too. Before that,
+  /// False: the bound does not hold, or takes more tets than a larger budget would, which holds it, too. Before that,
   /// vertices of the boundary are restored where it is at fault.
   bool meet_budget(Worker &worker) {
     for (const Budget budget = budget_;; budget_ = budget) {
       const bool collapsed = coarsen(worker);
       const Array<std::int32_t> beyond = refine(collapsed);
-      if (beyond.empty()) return !has_grown() || options_.max_error <= 0 || is_whole(budget_, options_, report_);
+      if (beyond.empty()) return !has_grown() || is_whole(budget_, options_, report_);
       if (!collapsed || kept_.restorations() == most_restorations) return false;
       kept_.restore(beyond, original_.view.points.size());
     }
   }
 
+  /// For the bound, beyond the original.
   bool has_grown() const {
-    return collapses_edges(options_, report_) && std::int64_t(mesh_.tets.size()) > report_.tets_in;
+    return options_.max_error > 0 && collapses_edges(options_, report_) &&
+           std::int64_t(mesh_.tets.size()) > report_.tets_in;
   }
 
-  /// By collapses, or, where they lead to no sound mesh of the size, by remeshing; of two that are too large the
-  /// smaller. Returns whether the mesh is by collapses.
+  /// By collapses, or, where they lead to no sound mesh of the size, by remeshing. Returns whether the mesh is by
+  /// collapses.
   bool coarsen(Worker &worker) {
     CoarseSolid coarse(job_.memory);
     const bool collapsed = collapses_edges(options_, report_) && collapse_edges(coarse);
-    try {
-      if (!collapsed) remesh_to_target(worker);
-    } catch (const Error &error) {
-      if (error.status() != Status::remesh || !coarse.is_sound) throw;
-      mesh_.tets.clear();
-    }
-    const bool is_smaller = mesh_.tets.empty() || coarse.mesh.tets.size() < mesh_.tets.size();
-    if (!collapsed && !(coarse.is_sound && is_smaller)) return false;
+    if (!collapsed && remesh_instead(coarse, worker)) return false;
     take_over(std::move(coarse));
     return true;
+  }
+
+  /// False: what collapses led to is sound, though too large, and remeshing leads to no smaller mesh.
+  bool remesh_instead(const CoarseSolid &coarse, Worker &worker) {
+    try {
+      remesh_to_target(worker);
+    } catch (const Error &error) {
+      if (error.status() != Status::remesh || !coarse.is_sound) throw;
+      return false;
+    }
+    return !coarse.is_sound || mesh_.tets.size() <= coarse.mesh.tets.size();
   }
 
   void remesh_to_target(Worker &worker) {

@@ -231,14 +231,18 @@ class Locator {
   KdTree tree_;
 };
 
-/// Whether a point that was found in tet t is a little outside of it there, and of all, as the boundary is no farther
-/// off than that. Where it is, rounding has left a gap between tets.
-bool is_outside(const TetComplex &mesh, std::int32_t t, const Vec3 &p, const NearestTriangle &nearest) {
+/// The nearest point of the boundary, of a point that was found in no tet (t is -1), or a little outside of tet t, and
+/// of all, as that point is no farther off. Where it is farther, rounding has left a gap between tets: none then.
+NearestPoint nearest_if_outside(const TetComplex &mesh, std::int32_t t, const Vec3 &p,
+                                const NearestTriangle &boundary) {
   constexpr double slack = 2;
+  if (t < 0) return boundary.nearest(p);
   double w[4];
   const double out = -mesh.frame(t).weights(p, w);
+  if (out <= 0) return {};
   const double length2 = longest2(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2), mesh.corner(t, 3));
-  return out > 0 && nearest.nearest(p).distance <= slack * out * std::sqrt(length2);
+  const NearestPoint nearest = boundary.nearest(p);
+  return nearest.distance <= slack * out * std::sqrt(length2) ? nearest : NearestPoint();
 }
 
 /// Moves the vertices that are outside to the nearest point of the boundary, into the tet there.
@@ -252,11 +256,11 @@ void project(Job &job, Array<std::int32_t> &home, AdaptiveMesh<m> &mesh) {
         faces.push_back(sorted_face(mesh.tets[t], k));
         tet_of_face.push_back(std::int32_t(t));
       }
-  const NearestTriangle nearest(mesh.points, faces, 8, job);
+  const NearestTriangle boundary(mesh.points, faces, 8, job);
   job.parallel.for_blocks(mesh.vertex_probes, block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; i++) {
-      if (home[i] >= 0 && !is_outside(mesh, home[i], mesh.probes[i].point, nearest)) continue;
-      const NearestPoint at = nearest.nearest(mesh.probes[i].point);
+      const NearestPoint at = nearest_if_outside(mesh, home[i], mesh.probes[i].point, boundary);
+      if (at.triangle < 0) continue;
       home[i] = tet_of_face[std::size_t(at.triangle)];
       mesh.probes[i].point = Vec3(0);
       for (int k = 0; k < 3; k++)

@@ -114,8 +114,8 @@ class Refinement {
   double square_of_rounding() const {
     constexpr double rounding = 1e-14;
     double largest = 0;
-    for (const Values<m> &values : mesh_.values) largest = std::max(largest, std::abs(values[0]));
-    return rounding * rounding * largest * largest;
+    for (const Values<m> &values : mesh_.values) largest = std::max(largest, mesh_.square(values));
+    return rounding * rounding * largest;
   }
 
   void count_points() {
