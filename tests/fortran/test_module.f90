@@ -1,13 +1,19 @@
 ! The module tetlod on a generated mesh: kinds, sections, index bases, failures, callbacks.
 module module_tests
+  use, intrinsic :: iso_c_binding, only: c_f_pointer, c_loc
   use, intrinsic :: iso_fortran_env, only: int32, int64, real32, real64
   use tetlod
   implicit none
   integer, parameter :: cells = 8, row = cells + 1, points = row**3, tets = 6 * cells**3
   integer :: failures = 0
+  real(real64), target :: xyz(3, points), values(points)
+  integer(int32), target :: corners(4, tets)
 
   type :: tally
     integer :: calls = 0
+  end type
+  type :: vertex
+    real(real64) :: place(3), value
   end type
   ! What a callback may not do with the context that calls it.
   type :: meddler
@@ -31,9 +37,7 @@ contains
   end function
 
   ! A cube of cells, each six tets around its diagonal, one for each order of the axes; a linear field.
-  subroutine make_mesh(xyz, corners, values)
-    real(real64), intent(out) :: xyz(3, points), values(points)
-    integer(int32), intent(out) :: corners(4, tets)
+  subroutine make_mesh()
     integer, parameter :: order(3, 6) = reshape([1, 2, 3, 1, 3, 2, 2, 1, 3, 2, 3, 1, 3, 1, 2, 3, 2, 1], [3, 6])
     integer :: i, j, k, path, step, t, p(3)
     t = 0
@@ -64,6 +68,13 @@ contains
     call lod%set_sigma(1d0)
   end subroutine
 
+  subroutine submit_mesh(lod)
+    type(tetlod_context), intent(inout) :: lod
+    call lod%submit_points(xyz)
+    call lod%submit_tets(corners)
+    call lod%submit_scalars("linear", values)
+  end subroutine
+
   ! The hash of the result's bytes, after a look at the result.
   integer(int64) function finish(lod) result(hash)
     type(tetlod_context), intent(inout) :: lod
@@ -90,19 +101,16 @@ contains
   end function
 
   subroutine test_layouts()
-    real(real64), allocatable, target :: xyz(:, :), values(:), big(:, :, :), table(:, :)
+    real(real64), allocatable, target :: big(:, :, :), table(:, :)
     real(real32), allocatable, target :: single(:, :), single_values(:)
-    integer(int32), allocatable, target :: corners(:, :)
     integer(int64), allocatable, target :: long(:, :)
     type(tetlod_context) :: lod
     integer(int64) :: packed
-    allocate (xyz(3, points), values(points), big(2, 5, 2 * points), corners(4, tets), long(6, tets))
-    call make_mesh(xyz, corners, values)
+    allocate (big(2, 5, 2 * points), long(6, tets))
     call begin(lod)
-    call lod%submit_points(xyz)
-    call lod%submit_tets(corners)
-    call lod%submit_scalars("linear", values)
+    call submit_mesh(lod)
     packed = finish(lod)
+    call expect(finish_records() == packed, "a view of derived types gives the bytes of packed arrays")
 
     big = -1d300
     big(2, 4:2:-1, 2 * points:2:-2) = xyz
@@ -137,6 +145,21 @@ contains
     call check_height(lod, 2d0 * cells)
     call lod%destroy()
   end subroutine
+
+  ! Lent, as README tells for components of derived types.
+  integer(int64) function finish_records() result(hash)
+    type(vertex), target :: vertices(points)
+    real(real64), pointer :: numbers(:, :)
+    type(tetlod_context) :: lod
+    integer :: i
+    vertices = [(vertex(xyz(:, i), values(i)), i=1, points)]
+    call c_f_pointer(c_loc(vertices), numbers, [4, points])
+    call begin(lod)
+    call lod%submit_points(numbers(1:3, :))
+    call lod%submit_tets(corners)
+    call lod%submit_scalars("linear", numbers(4, :))
+    hash = finish(lod)
+  end function
 
   subroutine check_height(lod, height)
     type(tetlod_context), intent(in) :: lod
@@ -206,16 +229,11 @@ contains
   end subroutine
 
   subroutine test_callbacks()
-    real(real64), target :: xyz(3, points), values(points)
-    integer(int32), target :: corners(4, tets)
     type(tetlod_context) :: lod
     type(tally), target :: counted
     integer :: stat
-    call make_mesh(xyz, corners, values)
     call begin(lod)
-    call lod%submit_points(xyz)
-    call lod%submit_tets(corners)
-    call lod%submit_scalars("linear", values)
+    call submit_mesh(lod)
     call lod%set_progress(stop_at_once, user=counted)
     call lod%run(stat=stat)
     call expect(stat == TETLOD_ERR_CANCELLED .and. counted%calls >= 1, "the progress procedure cancels")
@@ -224,6 +242,7 @@ contains
     call expect(stat == TETLOD_OK, "runs again without it")
     call lod%destroy()
   end subroutine
+
   subroutine meddle(m)
     type(meddler), intent(inout) :: m
     type(tally), target :: mine
@@ -261,16 +280,11 @@ contains
   end subroutine
 
   subroutine test_calls_inside_progress()
-    real(real64), target :: xyz(3, points), values(points)
-    integer(int32), target :: corners(4, tets)
     type(meddler), target :: m
     type(tetlod_context) :: lod
     integer :: run, before, stat
-    call make_mesh(xyz, corners, values)
     call begin(lod)
-    call lod%submit_points(xyz)
-    call lod%submit_tets(corners)
-    call lod%submit_scalars("linear", values)
+    call submit_mesh(lod)
     call lod%set_progress(meddle_in_progress, user=m)
     m%lod = lod
     do run = 1, 2
@@ -289,16 +303,11 @@ contains
 
   ! A program that is no worker, and complains: what it says is logged.
   subroutine test_calls_inside_log()
-    real(real64), target :: xyz(3, points), values(points)
-    integer(int32), target :: corners(4, tets)
     type(meddler), target :: m
     type(tetlod_context) :: lod
     integer :: run, stat
-    call make_mesh(xyz, corners, values)
     call lod%create(remesher="/bin/cp")
-    call lod%submit_points(xyz)
-    call lod%submit_tets(corners)
-    call lod%submit_scalars("linear", values)
+    call submit_mesh(lod)
     call lod%set_log(meddle_in_log, min_level=0, user=m)
     m%lod = lod
     do run = 1, 2
@@ -315,6 +324,7 @@ program test_module
   implicit none
   type(tetlod_context) :: none
   if (command_argument_count() > 0) call none%run()
+  call make_mesh()
   call test_layouts()
   call test_failures()
   call test_callbacks()
