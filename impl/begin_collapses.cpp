@@ -48,7 +48,7 @@ std::optional<CollapseStart<m>> warm_start(const MeshView &original, const Bound
     const double error = renew_quadrics(original, boundary, fields, state.progress.home, job, remains);
     if (!inherits_too_much(error, options.warm_start, usual_cost)) {
       SolidMesh<m> solid(std::move(remains), job);
-      SolidProgress progress(solid.points.size(), solid.tets.size(), job.memory);
+      SolidProgress progress(solid.points.size(), solid.tets.size(), job);
       return CollapseStart<m>{std::move(solid), std::move(progress), false, error};
     }
     if (inherits_too_much(error, options.warm_start, far_beyond * usual_cost)) break;
@@ -81,7 +81,7 @@ CollapseStart<m> begin_collapses(const MeshView &original, const Boundary &bound
     return {SolidMesh<m>(SolidRemains<m>(state->remains, job.memory), job), SolidProgress(state->progress, job.memory),
             true};
   SolidMesh<m> solid = mesh_of<m>(original, boundary, options, fields.scales, job);
-  SolidProgress progress(solid.points.size(), solid.tets.size(), job.memory);
+  SolidProgress progress(solid.points.size(), solid.tets.size(), job);
   if (keeps_states && options.warm_start > 0) progress.follow(solid.origin, original.points.size());
   return {std::move(solid), std::move(progress), keeps_states};
 }

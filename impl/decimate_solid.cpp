@@ -79,11 +79,12 @@ class SolidDecimator {
       if (!deviation_ && count_ < progress_.next_closing && count_ > options_.tets)
         close_gaps();
       else
-        mesh_.tidy({rooms_.data(), rooms_.size()});
+        mesh_.tidy({rooms_.data(), rooms_.size()}, job_);
     }
   }
 
-  void write(TetMesh &out, Array<std::int32_t> &origin) const {
+  /// The end of it.
+  void write(TetMesh &out, Array<std::int32_t> &origin) {
     Array<std::int32_t> known(original_.points.size(), -1, &job_.memory), number(mesh_.points.size(), -1, &job_.memory);
     for (std::int32_t v : left_) known[std::size_t(mesh_.origin[std::size_t(v)])] = v;
     for (std::size_t i = 0; i < known.size(); i++) {
@@ -97,8 +98,10 @@ class SolidDecimator {
       origin.push_back(moved ? -1 : std::int32_t(i));
     }
     job_.poll(1);
-    append_left(mesh_.tets, number, out.tets);
-    append_left(mesh_.triangles, number, out.boundary);
+    keep_left(mesh_.tets, number, job_);
+    keep_left(mesh_.triangles, number, job_);
+    out.tets = std::move(mesh_.tets);
+    out.boundary = std::move(mesh_.triangles);
   }
 
   std::int64_t count() const { return count_; }
@@ -141,9 +144,8 @@ class SolidDecimator {
   }
 
   void collapse_some(double limit) {
-    Array<std::int32_t> items(&job_.memory);
-    for (std::int32_t v : left_)
-      if (cheapest(v).cost <= limit) items.push_back(v);
+    Array<std::int32_t> items(left_, &job_.memory);
+    keep_where(items, job_, [&](std::size_t i) { return cheapest(items[i]).cost <= limit; });
     blocks_.cut(mesh_, left_, progress_.round, most_blocks(items.size()), job_);
     for (std::int32_t v : items) works_[blocks_.of(v)].items.push_back(v);
     const double share = double(count_ - options_.tets) / double(items.size());
@@ -200,8 +202,7 @@ class SolidDecimator {
   }
 
   void drop_gone(Array<std::int32_t> &vertices) const {
-    const auto is_gone = [&](std::int32_t v) { return !mesh_.has_vertex(v); };
-    vertices.erase(std::remove_if(vertices.begin(), vertices.end(), is_gone), vertices.end());
+    keep_where(vertices, job_, [&](std::size_t i) { return mesh_.has_vertex(vertices[i]); });
   }
 
   // ---- States
@@ -209,9 +210,9 @@ class SolidDecimator {
   /// What is left moves together, so that it is near in memory.
   void close_gaps() {
     progress_.next_closing = count_ / 2;
-    const Array<std::int32_t> number = numbers_of(left_, mesh_.points.size(), job_.memory);
-    SolidRemains<m> remains = mesh_.take_remains(left_, number, job_);
-    progress_.close_gaps(left_, number);
+    const Array<std::int32_t> number = numbers_of(left_, mesh_.points.size(), job_);
+    SolidRemains<m> remains = mesh_.take_remains(number, job_);
+    progress_.close_gaps(number, job_);
     for (CollapseRoom &room : rooms_) room.clear();
     keep_state(remains);
     mesh_ = SolidMesh<m>(std::move(remains), job_);
@@ -221,17 +222,19 @@ class SolidDecimator {
 
   /// Unless it is of this target alone, kept already, or would take memory that the run does not need without it. Where
   /// new values may begin must not depend on the peak, which depends on the threads.
-  void keep_state(const SolidRemains<m> &remains) {
+  void keep_state(SolidRemains<m> &remains) {
     if (!states_) return;
     const bool is_kept = !states_->empty() && states_->back().remains.tets.size() <= remains.tets.size();
     if (is_kept || progress_.largest_target < options_.tets) return;
     if (progress_.follows() ? remains.tets.size() > remains.measures.tets / 2 : raises_peak(remains)) return;
+    remains.give_spare_back();
     states_->push_back({SolidRemains<m>(remains, job_.memory), SolidProgress(progress_, job_.memory)});
   }
 
   bool raises_peak(const SolidRemains<m> &remains) const {
     const std::size_t of_lists = remains.bytes() / 4 * 5;  // about, when they are made again, and grow
-    return job_.memory.in_use() + remains.bytes() + progress_.bytes() + of_lists > job_.memory.peak();
+    const std::size_t in_use = job_.memory.in_use() - remains.spare_bytes();
+    return in_use + remains.bytes() + progress_.bytes() + of_lists > job_.memory.peak();
   }
 
   // ---- A collapse
@@ -361,7 +364,7 @@ std::int64_t decimate_solid(const MeshView &original, const Boundary &boundary, 
                             const SolidOptions &options, SolidHistory &history, Job &job, TetMesh &mesh,
                             Array<std::int32_t> &origin) {
   return with_fields(original.fields, [&](auto m) {
-    const FieldsAsLengths<m> fields(original, box_of(surface.points).diagonal());
+    const FieldsAsLengths<m> fields(original, box_of(surface.points).diagonal(), job);
     for (;;) {
       CollapseStart<m> start = begin_collapses<m>(original, boundary, fields, options, history, job);
       const std::size_t saved = start.solid.measures.vertices - start.solid.points.size();

@@ -1,14 +1,8 @@
 #include "fingerprint.hpp"
 
-#include <algorithm>
+#include "whole_arrays.hpp"
 
 namespace tetlod {
-
-namespace {
-
-constexpr std::size_t block = 1 << 16;
-
-}  // namespace
 
 void Fingerprint::add(const StridedArray &array, Job &job) {
   for (const std::int64_t shape : {std::int64_t(array.present), std::int64_t(array.type), array.tuples,
@@ -28,23 +22,31 @@ void Fingerprint::add(const StridedArray &array, Job &job) {
 
 template <class Word>
 void Fingerprint::add_elements(const StridedArray &array, Job &job) {
-  for (std::int64_t i = 0; i < array.tuples; i++) {
-    if (std::size_t(i) % block == 0) job.poll(0);
+  add_parts(std::size_t(array.tuples), job, [&](Fingerprint &part, std::size_t i) {
     for (int c = 0; c < array.components; c++) {
       Word word;
-      std::memcpy(&word, array.data + i * array.tuple_stride + c * array.component_stride, sizeof word);
-      add(std::uint64_t(word));
+      std::memcpy(&word, array.data + std::int64_t(i) * array.tuple_stride + c * array.component_stride, sizeof word);
+      part.add(std::uint64_t(word));
     }
-  }
+  });
 }
 
 void Fingerprint::add_bytes(const unsigned char *bytes, std::size_t count, Job &job) {
-  for (std::size_t i = 0; i < count; i += 8) {
-    if (i % (8 * block) == 0) job.poll(0);
-    std::uint64_t word = 0;
-    std::memcpy(&word, bytes + i, std::min<std::size_t>(8, count - i));
-    add(word);
-  }
+  add_parts(count / 8, job, [&](Fingerprint &part, std::size_t i) {
+    std::uint64_t word;
+    std::memcpy(&word, bytes + 8 * i, 8);
+    part.add(word);
+  });
+  if (count % 8 == 0) return;
+  std::uint64_t rest = 0;
+  std::memcpy(&rest, bytes + count / 8 * 8, count % 8);
+  add(rest);
+}
+
+template <class Add>
+void Fingerprint::add_parts(std::size_t count, Job &job, const Add &add_item) {
+  for (const Fingerprint &part : parts_of(count, Fingerprint(), job, add_item))
+    for (std::size_t half : {0, 1}) add(part.word(half));
 }
 
 }  // namespace tetlod

@@ -21,6 +21,9 @@ class Fingerprint {
     std::memcpy(&word, &real, sizeof word);
     add(word);
   }
+  void add(Span<const double> reals, Job &job) {
+    add_bytes(reinterpret_cast<const unsigned char *>(reals.data()), reals.size() * sizeof(double), job);
+  }
   /// Contents, type and layout; not where it lies.
   void add(const StridedArray &array, Job &job);
 
@@ -42,6 +45,8 @@ class Fingerprint {
   template <class Word>
   void add_elements(const StridedArray &array, Job &job);
   void add_bytes(const unsigned char *bytes, std::size_t count, Job &job);
+  template <class Add>
+  void add_parts(std::size_t count, Job &job, const Add &add_item);
 
   std::size_t at_ = 0;
   std::uint64_t lane_[lanes] = {0x51ed270b0a1f39c1u, 0x2545f4914f6cdd1du, 0x9e6c63d0676a9a99u, 0xd6e8feb86659fd93u};

@@ -8,6 +8,7 @@
 #include "flip_tets.hpp"
 #include "give_way.hpp"
 #include "insert_vertices.hpp"
+#include "whole_arrays.hpp"
 
 namespace tetlod {
 
@@ -60,8 +61,8 @@ std::int32_t corner_at(const TetComplex &mesh, std::int32_t t, const Vec3 &p, do
 
 /// Of tet t, when it was measured.
 struct Measured {
-  double error;
-  std::int32_t tet;
+  double error = 0;
+  std::int32_t tet = -1;  // none
   bool operator<(const Measured &o) const { return error != o.error ? error < o.error : tet > o.tet; }
 };
 
@@ -80,18 +81,16 @@ class LargestErrors {
   }
 
   void lower(std::int64_t tets) {
-    Array<Measured> room(&job_.memory);
-    room.reserve(mesh_.count());
-    std::priority_queue largest(std::less<>(), std::move(room));
-    for (std::size_t t = 0; t < mesh_.tets.size(); t++) {
-      if (t % 4096 == 0) job_.poll(0.9);
-      if (mesh_.alive(std::int32_t(t))) largest.push({largest_in(mesh_, std::int32_t(t)).value, std::int32_t(t)});
-    }
+    Array<Measured> errors = array_of(mesh_.tets.size(), Measured(), job_);
+    for_each(errors.size(), job_, [&](std::size_t t) {
+      if (mesh_.alive(std::int32_t(t))) errors[t] = {largest_in(mesh_, std::int32_t(t)).value, std::int32_t(t)};
+    });
+    std::priority_queue largest(std::less<>(), std::move(errors));
     for (std::size_t i = 0; std::int64_t(mesh_.count()) + tets_a_vertex <= tets && !largest.empty(); i++) {
       if (i % 256 == 0) job_.poll(0.9);
       const Measured next = largest.top();
       largest.pop();
-      if (!mesh_.alive(next.tet)) continue;
+      if (next.tet < 0 || !mesh_.alive(next.tet)) continue;
       const LargestError worst = largest_in(mesh_, next.tet);
       if (worst.probe < 0 || worst.value != next.error) continue;
       if (!serve(next.tet, mesh_.probes[std::size_t(worst.probe)])) continue;
@@ -155,13 +154,14 @@ class LargestErrors {
 
 template <std::size_t m>
 LargestError largest_error(const AdaptiveMesh<m> &mesh, Job &job) {
+  const auto add = [](LargestError &largest, const LargestError &other) {
+    if (other.value > largest.value) largest = other;
+  };
   LargestError largest;
-  for (std::size_t t = 0; t < mesh.tets.size(); t++) {
-    if (t % 4096 == 0) job.poll(0.9);
-    if (!mesh.alive(std::int32_t(t))) continue;
-    const LargestError here = largest_in(mesh, std::int32_t(t));
-    if (here.value > largest.value) largest = here;
-  }
+  for (const LargestError &of_part : parts_of(mesh.tets.size(), largest, job, [&](LargestError &part, std::size_t t) {
+         if (mesh.alive(std::int32_t(t))) add(part, largest_in(mesh, std::int32_t(t)));
+       }))
+    add(largest, of_part);
   return largest;
 }
 

@@ -21,10 +21,9 @@ Fingerprint stamp_of(const Input &input, const Options &options, Job &job) {
 }
 
 /// Of what a cost that sees the fields depends on; of nothing, for the paper's.
-Fingerprint fingerprint_of(Span<const double> values, const DecimateOptions &options) {
+Fingerprint fingerprint_of(Span<const double> values, const DecimateOptions &options, Job &job) {
   Fingerprint fingerprint;
-  if (options.sees_fields())
-    for (double value : values) fingerprint.add(value);
+  if (options.sees_fields()) fingerprint.add(values, job);
   return fingerprint;
 }
 
@@ -83,7 +82,7 @@ bool Prepared::Logged::holds(const DecimateOptions &of, const Fingerprint &of_va
 DecimateReport Prepared::decimate_logged(const DecimateOptions &options, Span<const std::uint8_t> flags, Job &job,
                                          Surface &surface, bool &reused) {
   Logged &logged = options.careful ? careful_ : careless_;
-  const Fingerprint values = fingerprint_of(surface_.scalars, options);
+  const Fingerprint values = fingerprint_of(surface_.scalars, options, job);
   DecimateReport report;
   report.edges_in = std::int64_t(topology_.mate.size() / 2);
   const std::int64_t count =
@@ -127,7 +126,7 @@ Prepared::Decimated Prepared::decimate(const DecimateOptions &options, std::int3
 }
 
 SolidHistory &Prepared::history(bool keeps_earlier, Job &job) {
-  history_.begin(original.view, keeps_earlier, job.memory);
+  history_.begin(original.view, keeps_earlier, job);
   return history_;
 }
 

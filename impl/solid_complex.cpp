@@ -21,7 +21,7 @@ SolidComplex::SolidComplex(SolidInOrder &&solid, Job &job)
   for (const Triangle &t : triangles)
     for (std::int32_t v : t) ranks[std::size_t(v)] = Rank::boundary;
   const double flat = flat_beside_usual * flat_beside_usual * usual_shape2(job.memory);
-  measures = {std::min(least_shape * least_shape, flat), volume(), points.size(), tets.size(), 0};
+  measures = {std::min(least_shape * least_shape, flat), volume(job), points.size(), tets.size(), 0};
 }
 
 SolidComplex::SolidComplex(Array<Vec3> &&points_of, Array<Rank> &&ranks_of, Array<Tet> &&tets_of_it,
@@ -55,34 +55,33 @@ Vec3 SolidComplex::normal(std::int32_t triangle) const {
   return area_vector(point(t[0]), point(t[1]), point(t[2]));
 }
 
-double SolidComplex::volume() const {
-  double sum = 0;
-  for (const Tet &t : tets) sum += volume6(*this, t);
-  return sum / 6;
+double SolidComplex::volume(Job &job) const {
+  const Array<double> parts =
+      parts_of(tets.size(), 0.0, job, [&](double &sum, std::size_t t) { sum += volume6(*this, tets[t]); });
+  return std::accumulate(parts.begin(), parts.end(), 0.0) / 6;
 }
 
 /// Of each vertex, from Euler's formula for the sphere, or the disk, that its tets have opposite it; where the solid
 /// touches itself there are more.
-Array<std::uint32_t> SolidComplex::usual_neighbours(Memory &memory) const {
-  Array<std::uint32_t> counts(&memory);
-  counts.reserve(points.size());
-  for (std::size_t v = 0; v < points.size(); v++) {
+Array<std::uint32_t> SolidComplex::usual_neighbours(Job &job) const {
+  Array<std::uint32_t> counts = array_of(points.size(), std::uint32_t(0), job);
+  for_each(points.size(), job, [&](std::size_t v) {
     const auto around = std::uint32_t(tets_of.of(std::int32_t(v)).size());
     const auto rim = std::uint32_t(triangles_of.of(std::int32_t(v)).size());
-    counts.push_back((around + rim) / 2 + (rim == 0 ? 2 : 1));
-  }
+    counts[v] = (around + rim) / 2 + (rim == 0 ? 2 : 1);
+  });
   return counts;
 }
 
 void SolidComplex::find_neighbours(Job &job) {
-  neighbours = StarLists(usual_neighbours(job.memory), job);
+  neighbours = StarLists(usual_neighbours(job), job);
   const auto parts = std::size_t(job.parallel.threads());
   Array<CollapseRoom> rooms(&job.memory);
   rooms.reserve(parts);
   for (std::size_t i = 0; i < parts; i++) rooms.emplace_back(job.memory);
   job.parallel.for_parts(points.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
     CollapseRoom &room = rooms[part];
-    Array<std::int32_t> seen_by(points.size(), -1, &job.memory);
+    Array<std::int32_t> seen_by = array_of(points.size(), -1, job);
     for (std::size_t v = begin; v < end; v++) {
       if (v % 4096 == 0) job.poll(0);
       room.list.clear();
@@ -97,7 +96,7 @@ void SolidComplex::find_neighbours(Job &job) {
     }
   });
   if (std::any_of(rooms.begin(), rooms.end(), [](const CollapseRoom &room) { return room.neighbours.taken() > 0; }))
-    neighbours.compact();
+    neighbours.compact(job);
 }
 
 void SolidComplex::collapse(const SolidEdge &edge, const Vec3 &point, CollapseRoom &room) {
@@ -154,13 +153,13 @@ void SolidComplex::merge_neighbours(const SolidEdge &edge, CollapseRoom &room) {
   neighbours.clear(edge.gone);
 }
 
-void SolidComplex::tidy(Span<CollapseRoom> rooms) {
+void SolidComplex::tidy(Span<CollapseRoom> rooms, Job &job) {
   constexpr std::size_t much = 4;  // times what has grown is all
   const auto tidy_up = [&](StarLists &lists, ListRoom CollapseRoom::*room) {
     std::size_t taken = 0;
     for (const CollapseRoom &some : rooms) taken += (some.*room).taken();
     if (taken * much < lists.room()) return;
-    lists.compact();
+    lists.compact(job);
     for (CollapseRoom &some : rooms) (some.*room).clear();
   };
   tidy_up(tets_of, &CollapseRoom::tets);

@@ -15,31 +15,19 @@ enum class Rank : std::uint8_t {
   touching  ///< on the boundary, where the solid touches itself: none of its edges collapses
 };
 
-/// Appends those that are not gone, with the new numbers of their vertices.
+/// Those that are not gone alone, with the new numbers of their vertices.
 template <class Simplex>
-void append_left(const Array<Simplex> &simplices, Span<const std::int32_t> number, Array<Simplex> &to) {
-  const auto is_left = [](const Simplex &simplex) { return simplex[0] >= 0; };
-  to.reserve(to.size() + std::size_t(std::count_if(simplices.begin(), simplices.end(), is_left)));
-  for (Simplex simplex : simplices) {
-    if (!is_left(simplex)) continue;
-    for (std::int32_t &v : simplex) v = number[std::size_t(v)];
-    to.push_back(simplex);
-  }
-}
-
-/// Those of the vertices `left` alone.
-template <class T>
-void keep_alone(Span<const std::int32_t> left, Array<T> &of_vertices) {
-  Array<T> kept(of_vertices.get_allocator());
-  kept.reserve(left.size());
-  for (std::int32_t v : left) kept.push_back(of_vertices[std::size_t(v)]);
-  of_vertices = std::move(kept);
+void keep_left(Array<Simplex> &simplices, Span<const std::int32_t> number, Job &job) {
+  keep_where(simplices, job, [&](std::size_t i) { return simplices[i][0] >= 0; });
+  for_each(simplices.size(), job, [&](std::size_t i) {
+    for (std::int32_t &v : simplices[i]) v = number[std::size_t(v)];
+  });
 }
 
 /// The new number of each vertex, from 0 on in the order of `left`; -1: it is not left.
-inline Array<std::int32_t> numbers_of(Span<const std::int32_t> left, std::size_t vertices, Memory &memory) {
-  Array<std::int32_t> numbers(vertices, -1, &memory);
-  for (std::size_t i = 0; i < left.size(); i++) numbers[std::size_t(left[i])] = std::int32_t(i);
+inline Array<std::int32_t> numbers_of(Span<const std::int32_t> left, std::size_t vertices, Job &job) {
+  Array<std::int32_t> numbers = array_of(vertices, -1, job);
+  for_each(left.size(), job, [&](std::size_t i) { numbers[std::size_t(left[i])] = std::int32_t(i); });
   return numbers;
 }
 
@@ -106,13 +94,13 @@ class SolidComplex {
   void collapse(const SolidEdge &edge, const Vec3 &point, CollapseRoom &room);
 
   /// Lists side by side again, when those that have grown take much room.
-  void tidy(Span<CollapseRoom> rooms);
+  void tidy(Span<CollapseRoom> rooms, Job &job);
 
  private:
-  Array<std::uint32_t> usual_neighbours(Memory &memory) const;
+  Array<std::uint32_t> usual_neighbours(Job &job) const;
   void find_neighbours(Job &job);
   double usual_shape2(Memory &memory) const;
-  double volume() const;
+  double volume(Job &job) const;
   void merge_tets(const SolidEdge &edge, CollapseRoom &room);
   void merge_triangles(const SolidEdge &edge, CollapseRoom &room);
   void merge_neighbours(const SolidEdge &edge, CollapseRoom &room);

@@ -1,9 +1,11 @@
 #include "solid_in_order.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "geometry.hpp"
 #include "sort_by_place.hpp"
+#include "whole_arrays.hpp"
 
 namespace tetlod {
 
@@ -34,29 +36,44 @@ void order_vertices(const MeshView &original, Span<const std::int32_t> used, Job
   }
 }
 
-std::size_t first_vertex(const Tet &t) { return std::size_t(*std::min_element(t.begin(), t.end())); }
+/// Of each tet, with its vertices' new numbers; -1: it is excluded.
+Array<std::int32_t> first_vertices(const MeshView &original, const Boundary &boundary, Span<const std::int32_t> number,
+                                   Job &job) {
+  Array<std::int32_t> first = array_of(original.tets.size(), -1, job);
+  for_each(first.size(), job, [&](std::size_t t) {
+    if (is_excluded(boundary, t)) return;
+    first[t] = std::numeric_limits<std::int32_t>::max();
+    for (std::int32_t v : original.tets[t]) first[t] = std::min(first[t], number[std::size_t(v)]);
+  });
+  return first;
+}
 
+Tet upright(Tet tet, Span<const std::int32_t> number, Span<const Vec3> points) {
+  for (std::int32_t &v : tet) v = number[std::size_t(v)];
+  const auto p = [&](std::size_t k) { return points[std::size_t(tet[k])]; };
+  if (det(p(0), p(1), p(2), p(3)) < 0) std::swap(tet[2], tet[3]);
+  return tet;
+}
+
+/// By their first vertices; each thread those of some vertices.
 void order_tets(const MeshView &original, const Boundary &boundary, Span<const std::int32_t> number, Job &job,
                 SolidInOrder &solid) {
-  const auto renumbered = [&](Tet t) {
-    for (std::int32_t &v : t) v = number[std::size_t(v)];
-    return t;
-  };
+  const Array<std::int32_t> first = first_vertices(original, boundary, number, job);
   Array<std::size_t> next(solid.points.size() + 1, 0, &job.memory);
-  for (std::size_t t = 0; t < original.tets.size(); t++) {
-    if (t % poll_every == 0) job.poll(0);
-    if (!is_excluded(boundary, t)) next[first_vertex(renumbered(original.tets[t])) + 1]++;
-  }
-  for (std::size_t v = 1; v < next.size(); v++) next[v] += next[v - 1];
-  solid.tets.resize(next.back());
-  for (std::size_t t = 0; t < original.tets.size(); t++) {
-    if (t % poll_every == 0) job.poll(0);
-    if (is_excluded(boundary, t)) continue;
-    Tet tet = renumbered(original.tets[t]);
-    const auto p = [&](std::size_t k) { return solid.points[std::size_t(tet[k])]; };
-    if (det(p(0), p(1), p(2), p(3)) < 0) std::swap(tet[2], tet[3]);
-    solid.tets[next[first_vertex(tet)]++] = tet;
-  }
+  const auto for_tets = [&](const auto &visit) {
+    job.parallel.for_parts(solid.points.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+      for (std::size_t t = 0; t < first.size(); t++) {
+        if (t % poll_every == 0) job.poll(0);
+        if (std::size_t(first[t]) - begin < end - begin) visit(t, next[std::size_t(first[t])]);
+      }
+    });
+  };
+  for_tets([](std::size_t, std::size_t &count) { count++; });
+  std::exclusive_scan(next.begin(), next.end(), next.begin(), std::size_t(0));
+  grow(solid.tets, next.back(), job);
+  for_tets([&](std::size_t t, std::size_t &place) {
+    solid.tets[place++] = upright(original.tets[t], number, solid.points);
+  });
 }
 
 }  // namespace

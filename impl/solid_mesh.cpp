@@ -10,10 +10,12 @@ constexpr double shape_share = 1e-6;
 }  // namespace
 
 template <std::size_t m>
-FieldsAsLengths<m>::FieldsAsLengths(const MeshView &original, double diagonal) {
+FieldsAsLengths<m>::FieldsAsLengths(const MeshView &original, double diagonal, Job &job) {
   const Span<const Values<m>> values = original.values<m>();
-  for (const Tet &t : original.tets)
-    for (std::int32_t v : t) range.add(values[std::size_t(v)]);
+  const auto add = [&](ValueRange<m> &of_part, std::size_t t) {
+    for (std::int32_t v : original.tets[t]) of_part.add(values[std::size_t(v)]);
+  };
+  for (const ValueRange<m> &of_part : parts_of(original.tets.size(), range, job, add)) range.add(of_part);
   double half = 0;  // the whole may be more than a double holds; the first may be constant
   for (std::size_t i = 0; i < m && !(half > 0); i++)
     half = original.scales.relative[i] * (0.5 * range.high[i] - 0.5 * range.low[i]);
@@ -25,9 +27,10 @@ template <std::size_t m>
 SolidMesh<m>::SolidMesh(SolidInOrder solid, Span<const Values<m>> values, const Values<m> &scales, Job &job)
     : SolidComplex(std::move(solid), job),
       origin(std::move(solid.origin)),
-      vertices_(points.size(), Vertex(), &job.memory) {
-  for (std::size_t v = 0; v < vertices_.size(); v++)
+      vertices_(array_of(points.size(), Vertex(), job)) {
+  for_each(vertices_.size(), job, [&](std::size_t v) {
     for (std::size_t i = 0; i < m; i++) vertices_[v].lengths[i] = scales[i] * values[std::size_t(origin[v])][i];
+  });
   find_quadrics(job);
 }
 
@@ -39,21 +42,23 @@ SolidMesh<m>::SolidMesh(SolidRemains<m> &&remains, Job &job)
       vertices_(std::move(remains.vertices)) {}
 
 template <std::size_t m>
-SolidRemains<m> SolidMesh<m>::take_remains(Span<const std::int32_t> left, Span<const std::int32_t> number, Job &job) {
+SolidRemains<m> SolidMesh<m>::take_remains(Span<const std::int32_t> number, Job &job) {
   for (StarLists *lists : {&tets_of, &triangles_of, &neighbours}) *lists = StarLists(0, job);  // first, to make room
-  keep_alone(left, origin);
-  keep_alone(left, points);
-  keep_alone(left, ranks);
-  keep_alone(left, vertices_);
+  const auto is_left = [&](std::size_t v) { return number[v] >= 0; };
+  keep_where(origin, job, is_left);
+  keep_where(points, job, is_left);
+  keep_where(ranks, job, is_left);
+  keep_where(vertices_, job, is_left);
+  keep_left(tets, number, job);
+  keep_left(triangles, number, job);
   SolidRemains<m> remains(job.memory);
   remains.measures = measures;
   remains.origin = std::move(origin);
   remains.points = std::move(points);
   remains.ranks = std::move(ranks);
   remains.vertices = std::move(vertices_);
-  append_left(tets, number, remains.tets);
-  tets = Array<Tet>(&job.memory);
-  append_left(triangles, number, remains.triangles);
+  remains.tets = std::move(tets);
+  remains.triangles = std::move(triangles);
   return remains;
 }
 

@@ -16,7 +16,7 @@ struct SolidVertex {
 /// The values of fields in units of length: a field's range counts as the diagonal, where its weight is 1.
 template <std::size_t m>
 struct FieldsAsLengths {
-  FieldsAsLengths(const MeshView &original, double diagonal);
+  FieldsAsLengths(const MeshView &original, double diagonal, Job &job);
   ValueRange<m> range;  ///< of the values that tets have: other points' mean nothing
   Values<m> scales;     ///< length that a unit of each field counts as
 };
@@ -49,8 +49,18 @@ struct SolidRemains {
         triangles(of.triangles, &memory),
         measures(of.measures) {}
   std::size_t bytes() const {
-    return vertices.size() * (sizeof(SolidVertex<m>) + sizeof(Vec3) + sizeof(std::int32_t) + sizeof(Rank)) +
-           tets.size() * sizeof(Tet) + triangles.size() * sizeof(Triangle);
+    std::size_t sum = 0;
+    for_arrays(*this, [&](const auto &array) { sum += array.size() * sizeof(array[0]); });
+    return sum;
+  }
+  /// Room without use, which vertices and tets that are gone have left.
+  std::size_t spare_bytes() const {
+    std::size_t sum = 0;
+    for_arrays(*this, [&](const auto &array) { sum += (array.capacity() - array.size()) * sizeof(array[0]); });
+    return sum;
+  }
+  void give_spare_back() {
+    for_arrays(*this, [](auto &array) { tetlod::give_spare_back(array); });
   }
   Array<std::int32_t> origin;
   Array<Vec3> points;
@@ -59,6 +69,17 @@ struct SolidRemains {
   Array<Tet> tets;
   Array<Triangle> triangles;
   SolidMeasures measures;
+
+ private:
+  template <class Remains, class Visit>
+  static void for_arrays(Remains &of, const Visit &visit) {
+    visit(of.origin);
+    visit(of.points);
+    visit(of.ranks);
+    visit(of.vertices);
+    visit(of.tets);
+    visit(of.triangles);
+  }
 };
 
 template <std::size_t m>
@@ -72,7 +93,7 @@ class SolidMesh : public SolidComplex {
   SolidMesh(SolidRemains<m> &&remains, Job &job);
 
   /// What is left, taken out of the mesh, which is of no use after that. number: numbers_of(left).
-  SolidRemains<m> take_remains(Span<const std::int32_t> left, Span<const std::int32_t> number, Job &job);
+  SolidRemains<m> take_remains(Span<const std::int32_t> number, Job &job);
 
   Array<std::int32_t> origin;  ///< the original vertex of each one
 

@@ -5,13 +5,13 @@
 
 namespace tetlod {
 
-SolidProgress::SolidProgress(std::size_t vertices, std::size_t tets, Memory &memory)
+SolidProgress::SolidProgress(std::size_t vertices, std::size_t tets, Job &job)
     : next_closing(std::int64_t(tets) / 4 * 3),  // soon, as the first rounds are the longest
-      cheapest(vertices, CheapestEdge(), &memory),
-      moved(vertices, -1, &memory),
-      changed(vertices, 0, &memory),
-      home(&memory),
-      into(&memory) {
+      cheapest(array_of(vertices, CheapestEdge(), job)),
+      moved(array_of(vertices, -1, job)),
+      changed(array_of(vertices, 0, job)),
+      home(&job.memory),
+      into(&job.memory) {
   std::iota(changed.begin(), changed.end(), 0);
 }
 
@@ -34,28 +34,29 @@ void SolidProgress::follow(Span<const std::int32_t> origin, std::size_t original
   std::iota(into.begin(), into.end(), 0);
 }
 
-void SolidProgress::close_gaps(Span<const std::int32_t> left, Span<const std::int32_t> number) {
+void SolidProgress::close_gaps(Span<const std::int32_t> number, Job &job) {
   const auto renumber = [&](std::int32_t &v) { v = v < 0 ? v : number[std::size_t(v)]; };
-  keep_alone(left, cheapest);
-  keep_alone(left, moved);
-  for (CheapestEdge &edge : cheapest) renumber(edge.other);
+  const auto is_left = [&](std::size_t v) { return number[v] >= 0; };
+  keep_where(cheapest, job, is_left);
+  keep_where(moved, job, is_left);
+  for_each(cheapest.size(), job, [&](std::size_t v) { renumber(cheapest[v].other); });
   for (std::int32_t &v : changed) renumber(v);
   if (!follows()) return;
   for (std::int32_t &v : home) {
     while (v >= 0 && into[std::size_t(v)] != v) v = into[std::size_t(v)];
     renumber(v);
   }
-  into.resize(left.size());
+  into.resize(moved.size());
   std::iota(into.begin(), into.end(), 0);
 }
 
-void SolidHistory::begin(const MeshView &original, bool keeps_earlier, Memory &memory) {
+void SolidHistory::begin(const MeshView &original, bool keeps_earlier, Job &job) {
   Fingerprint values;
   values.add(std::uint64_t(original.fields));
   for (std::size_t k = 0; k < original.fields; k++) values.add(original.scales.weighted[k]);
-  for (double value : original.scalars) values.add(value);
+  values.add(original.scalars, job);
   now_ = values;
-  if (is_earlier() && !keeps_earlier) forget_earlier(memory);
+  if (is_earlier() && !keeps_earlier) forget_earlier(job.memory);
 }
 
 void SolidHistory::forget_earlier(Memory &memory) {

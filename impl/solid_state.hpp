@@ -21,7 +21,7 @@ struct CheapestEdge {
 /// How far the rounds are, and what they know.
 struct SolidProgress {
   /// Before the first round.
-  SolidProgress(std::size_t vertices, std::size_t tets, Memory &memory);
+  SolidProgress(std::size_t vertices, std::size_t tets, Job &job);
   SolidProgress(const SolidProgress &of, Memory &memory);
 
   std::size_t bytes() const {
@@ -32,7 +32,7 @@ struct SolidProgress {
   void follow(Span<const std::int32_t> origin, std::size_t originals);
   bool follows() const { return !home.empty(); }
   /// Of the vertices that are left alone. number: numbers_of(left).
-  void close_gaps(Span<const std::int32_t> left, Span<const std::int32_t> number);
+  void close_gaps(Span<const std::int32_t> number, Job &job);
 
   /// For larger targets the round that is done would have been another one.
   void allow(double target) { largest_target = std::min(largest_target, std::int64_t(std::floor(target))); }
@@ -61,7 +61,7 @@ class SolidHistory {
   explicit SolidHistory(Memory &memory) : states_(Array<SolidState<1>>(&memory)) {}
 
   /// Forgets the states, unless they are of the same values, or those of earlier ones are to be kept.
-  void begin(const MeshView &original, bool keeps_earlier, Memory &memory);
+  void begin(const MeshView &original, bool keeps_earlier, Job &job);
   bool is_earlier() const { return !(now_ == values_); }
   void forget_earlier(Memory &memory);
   void forget(Memory &memory) { *this = SolidHistory(memory); }

@@ -2,8 +2,7 @@
 #pragma once
 #include <algorithm>
 
-#include "job.hpp"
-#include "mesh.hpp"
+#include "whole_arrays.hpp"
 
 namespace tetlod {
 
@@ -44,7 +43,7 @@ class StarLists {
   /// Lists with room for so many entries, to be set.
   StarLists(Array<std::uint32_t> &&entries, Job &job)
       : begin_(entries.size(), nullptr, &job.memory), count_(std::move(entries)), items_(&job.memory) {
-    give_room();
+    give_room(job);
   }
 
   /// The simplices of each vertex, but those that are gone, whose first corner is -1.
@@ -52,7 +51,7 @@ class StarLists {
   StarLists(Span<const std::array<std::int32_t, corners>> simplices, std::size_t vertices, Job &job)
       : StarLists(vertices, job) {
     for_corners(simplices, job, [&](std::int32_t v, std::int32_t) { count_[std::size_t(v)]++; });
-    give_room();
+    give_room(job);
     std::fill(count_.begin(), count_.end(), 0);
     for_corners(simplices, job, [&](std::int32_t v, std::int32_t simplex) {
       begin_[std::size_t(v)][count_[std::size_t(v)]++] = simplex;
@@ -80,16 +79,13 @@ class StarLists {
   std::size_t room() const { return items_.size(); }
 
   /// Side by side again; what lists have taken of a room is given back by who cleared it.
-  void compact() {
-    std::size_t used = 0;
-    for (std::uint32_t count : count_) used += count;
-    Array<std::int32_t> items(used, items_.get_allocator());
-    std::int32_t *next = items.data();
-    for (std::size_t v = 0; v < begin_.size(); v++) {
-      std::copy(begin_[v], begin_[v] + count_[v], next);
-      begin_[v] = next;
-      next += count_[v];
-    }
+  void compact(Job &job) {
+    const Array<std::size_t> places = beginnings(job);
+    Array<std::int32_t> items(&job.memory);
+    grow(items, places.back(), job);
+    for_lists(places, job, [&](std::size_t v, std::size_t place) {
+      begin_[v] = std::copy(begin_[v], begin_[v] + count_[v], items.data() + place) - count_[v];
+    });
     items_ = std::move(items);
   }
 
@@ -107,15 +103,27 @@ class StarLists {
     });
   }
 
-  void give_room() {
-    std::size_t total = 0;
-    for (std::uint32_t count : count_) total += count;
-    items_.resize(total);
-    std::int32_t *next = items_.data();
-    for (std::size_t v = 0; v < begin_.size(); v++) {
-      begin_[v] = next;
-      next += count_[v];
-    }
+  void give_room(Job &job) {
+    const Array<std::size_t> places = beginnings(job);
+    grow(items_, places.back(), job);
+    for_lists(places, job, [&](std::size_t v, std::size_t place) { begin_[v] = items_.data() + place; });
+  }
+
+  Array<std::size_t> beginnings(Job &job) const {
+    return tetlod::beginnings(count_.size(), job, [&](std::size_t v) { return count_[v]; });
+  }
+
+  /// visit(vertex, place of its list), of lists that lie side by side from the beginnings on.
+  template <class Visit>
+  void for_lists(Span<const std::size_t> beginnings, Job &job, const Visit &visit) const {
+    job.parallel.for_blocks(count_.size(), stretch, [&](std::size_t begin, std::size_t end) {
+      std::size_t place = beginnings[begin / stretch];
+      for (std::size_t v = begin; v < end; v++) {
+        visit(v, place);
+        place += count_[v];
+      }
+      job.poll(0);
+    });
   }
 
   std::int32_t *find(std::int32_t v, std::int32_t entry) {
