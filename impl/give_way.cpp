@@ -51,17 +51,14 @@ class Steps {
     hold(t, mesh_.frame(t), corner_in(t), probe, [](double limit, double) { return limit; });
   }
 
-  /// The bound at all vertices in the tets around; errors beyond it may stay as they are.
-  void hold_around(Span<const std::int32_t> tets) {
-    for (std::int32_t t : tets) {
-      const TetFrame frame = mesh_.frame(t);
-      const std::size_t corner = corner_in(t);
-      mesh_.for_probes(t, [&](std::int32_t p) {
-        if (std::size_t(p) < mesh_.vertex_probes)
-          hold(t, frame, corner, p, [](double limit, double r) { return std::max(limit, std::abs(r)); });
-      });
-      if (!exist()) return;
-    }
+  /// The bound at all vertices in tet t; errors beyond it may stay as they are.
+  void hold(std::int32_t t) {
+    const TetFrame frame = mesh_.frame(t);
+    const std::size_t corner = corner_in(t);
+    mesh_.for_probes(t, [&](std::int32_t p) {
+      if (std::size_t(p) < mesh_.vertex_probes)
+        hold(t, frame, corner, p, [](double limit, double r) { return std::max(limit, std::abs(r)); });
+    });
   }
 
   Values<m> least() const {
@@ -112,9 +109,11 @@ bool give_way(std::int32_t t, std::int32_t probe, double bound, const ValueRange
     Steps<m> steps(mesh, v, range, bound);
     steps.hold(t, probe);
     if (!steps.exist()) continue;
-    mesh.star(v, around);
-    steps.hold_around(around);
-    if (!steps.exist()) continue;
+    const auto hold = [&](std::int32_t at) {
+      steps.hold(at);
+      return steps.exist();
+    };
+    if (!mesh.star(v, around, hold)) continue;
     const Values<m> least = steps.least();
     Values<m> &values = mesh.values[std::size_t(v)];
     for (std::size_t i = 0; i < m; i++) values[i] += least[i];

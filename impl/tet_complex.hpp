@@ -71,6 +71,9 @@ class TetComplex {
   /// All tets of a vertex. False where there are more than a cavity holds.
   void star(std::int32_t v, Array<std::int32_t> &around) const { tets_with(tet_of[std::size_t(v)], &v, 1, around); }
   bool star(std::int32_t v, Cavity &around) const;
+  /// Only up to a tet of which visit(tet) says so: false then.
+  template <class Visit>
+  bool star(std::int32_t v, Array<std::int32_t> &around, const Visit &visit) const;
   /// All tets with the `size` vertices of a simplex, of which t is one.
   void tets_with(std::int32_t t, const std::int32_t *simplex, std::size_t size, Array<std::int32_t> &around) const;
 
@@ -95,6 +98,30 @@ class TetComplex {
   Array<std::int32_t> free_;
   Array<OuterFace> outer_;
 };
+
+/// From the tets in `around` on, across faces that hold the simplex. push: false where the list is full.
+template <class List, class Push>
+bool TetComplex::flood(const std::int32_t *simplex, std::size_t size, List &around, const Push &push) const {
+  for (std::size_t i = 0; i < around.size(); i++) {
+    const Tet &tet = tets[std::size_t(around[i])];
+    for (std::size_t k = 0; k < 4; k++) {
+      const std::int32_t n = neighbours[std::size_t(around[i])][k];
+      if (n < 0 || std::find(simplex, simplex + size, tet[k]) != simplex + size) continue;
+      if (std::find(around.begin(), around.end(), n) == around.end() && !push(n)) return false;
+    }
+  }
+  return true;
+}
+
+template <class Visit>
+bool TetComplex::star(std::int32_t v, Array<std::int32_t> &around, const Visit &visit) const {
+  const auto push = [&](std::int32_t t) {
+    around.push_back(t);
+    return visit(t);
+  };
+  around.clear();
+  return push(tet_of[std::size_t(v)]) && flood(&v, 1, around, push);
+}
 
 template <std::size_t most, class Visit>
 bool TetComplex::ring(std::int32_t t, std::int32_t a, std::int32_t b, Few<std::int32_t, most> &around,
