@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "job.hpp"
-#include "mesh.hpp"
+#include "whole_arrays.hpp"
 
 namespace tetlod {
 
@@ -54,7 +53,8 @@ class FaceSweep {
     Array<std::uint32_t> place(begin_.begin() + std::ptrdiff_t(first), begin_.begin() + std::ptrdiff_t(last),
                                &job_.memory);
     const std::uint32_t base = begin_[first];
-    Array<FaceUse> faces(begin_[last] - base, &job_.memory);
+    Array<FaceUse> faces(&job_.memory);
+    grow(faces, begin_[last] - base, job_);
     for_each_face(double(chunk) / double(chunks()),
                   [&](std::int32_t low, std::int32_t middle, std::int32_t high, std::uint32_t use) {
                     const std::size_t v = std::size_t(low) - first;  // wraps below the chunk

@@ -7,6 +7,7 @@
 #include "kd_tree.hpp"
 #include "sort_by_place.hpp"
 #include "surface_distance.hpp"
+#include "whole_arrays.hpp"
 
 namespace tetlod {
 
@@ -133,7 +134,7 @@ void add_inner(const MeshView &original, double most, Job &job, Array<Probe<m>> 
   for (std::size_t i = 0; i < changes.size(); i++)
     due_before.push_back(due_before.back() + shares.due(std::min(part, tets - i * part), changes[i]));
   const std::size_t before = probes.size();
-  probes.resize(before + taken(due_before.back()));
+  grow(probes, before + taken(due_before.back()), job);
   job.parallel.for_blocks(tets, part, [&](std::size_t begin, std::size_t end) {
     const double due = due_before[begin / part];
     std::size_t next = taken(due);
@@ -155,7 +156,7 @@ class Locator {
     while (!mesh.alive(start_)) start_++;
     Array<Box> boxes(mesh.tets.size() / together_ + 1, &job.memory);
     frames_.reserve(mesh.tets.size());
-    // Some at a time: to touch the room for all at once takes as long as 50 ms.
+    // Some at a time: to touch the room for all at once takes long.
     for (std::size_t first = 0; first < mesh.tets.size(); first += many) {
       const std::size_t count = std::min(many, mesh.tets.size() - first);
       frames_.resize(first + count);
@@ -320,23 +321,27 @@ Array<std::int32_t> find_homes(Job &job, const AdaptiveMesh<m> &mesh) {
 }
 
 template <class T>
-void put_in_places(Span<const std::int32_t> places, std::size_t begin, Array<T> &of_probes) {
+void put_in_places(Span<const std::int32_t> places, std::size_t begin, Job &job, Array<T> &of_probes) {
   const auto first = of_probes.begin() + std::ptrdiff_t(begin);
-  const Array<T> before(first, first + std::ptrdiff_t(places.size()), of_probes.get_allocator());
-  for (std::size_t i = 0; i < places.size(); i++) first[places[i]] = before[i];
+  const Array<T> before(first, first + std::ptrdiff_t(places.size()), &job.memory);
+  job.poll(0.2);
+  for_each(places.size(), job, [&](std::size_t i) { first[places[i]] = before[i]; });
 }
 
 /// Sorts probes begin to end by their tets, so that those of a tet lie side by side. Returns where each has come to be,
 /// from begin on.
 template <std::size_t m>
-Array<std::int32_t> sort_by_home(std::size_t begin, std::size_t end, AdaptiveMesh<m> &mesh, Array<std::int32_t> &home) {
-  Array<std::int32_t> next(mesh.tets.size() + 2, 0, &mesh.memory()), places(&mesh.memory());
+Array<std::int32_t> sort_by_home(std::size_t begin, std::size_t end, Job &job, AdaptiveMesh<m> &mesh,
+                                 Array<std::int32_t> &home) {
+  Array<std::int32_t> next(mesh.tets.size() + 2, 0, &job.memory), places(&job.memory);
   places.reserve(end - begin);
   for (std::size_t i = begin; i < end; i++) next[std::size_t(home[i] + 2)]++;
+  job.poll(0.2);
   for (std::size_t t = 0; t + 1 < next.size(); t++) next[t + 1] += next[t];
   for (std::size_t i = begin; i < end; i++) places.push_back(next[std::size_t(home[i] + 1)]++);
-  put_in_places(places, begin, mesh.probes);
-  put_in_places(places, begin, home);
+  job.poll(0.2);
+  put_in_places(places, begin, job, mesh.probes);
+  put_in_places(places, begin, job, home);
   return places;
 }
 
@@ -367,10 +372,10 @@ std::int64_t place_probes(const MeshView &original, const ProbeOptions &options,
   Array<std::int32_t> home = find_homes(job, mesh);
   const auto outside = std::count(home.begin(), home.begin() + std::ptrdiff_t(mesh.vertex_probes), -1);
   if (options.project_outside) project(job, home, mesh);
-  put_in_places(sort_by_home(0, mesh.vertex_probes, mesh, home), 0, mesh.vertex_of_probe);
-  job.poll(0.2);
-  sort_by_home(mesh.vertex_probes, home.size(), mesh, home);
+  put_in_places(sort_by_home(0, mesh.vertex_probes, job, mesh, home), 0, job, mesh.vertex_of_probe);
+  sort_by_home(mesh.vertex_probes, home.size(), job, mesh, home);
   mesh.next_probe.assign(home.size(), -1);
+  job.poll(0.2);
   mesh.first_probe.assign(mesh.tets.size(), -1);
   for (std::size_t i = home.size(); i-- > 0;) {
     if (i % 65536 == 0) job.poll(0.2);

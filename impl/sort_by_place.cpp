@@ -4,6 +4,8 @@
 #include <array>
 #include <numeric>
 
+#include "whole_arrays.hpp"
+
 namespace tetlod {
 
 namespace {
@@ -51,8 +53,9 @@ void sort_by_digit(const Array<Coded> &codes, int shift, Job &job, Array<Coded> 
 
 Array<std::int32_t> order_by_place(std::size_t count, const std::function<Vec3(std::size_t)> &place, Job &job) {
   Box box;
-  for (std::size_t i = 0; i < count; i++) box.add(place(i));
+  for (const Box &part : parts_of(count, Box(), job, [&](Box &of, std::size_t i) { of.add(place(i)); })) box.add(part);
   Array<Coded> codes(count, Coded{}, &job.memory), sorted(count, Coded{}, &job.memory);
+  job.poll(0);
   job.parallel.for_blocks(count, 4096, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; i++) codes[i] = {morton_code(place(i), box), std::int32_t(i)};
     job.poll(0);

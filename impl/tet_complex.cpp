@@ -16,6 +16,7 @@ Triangle sorted_face(const Tet &t, int k) {
 
 void TetComplex::connect(Job &job) {
   neighbours.assign(tets.size(), Tet{-1, -1, -1, -1});
+  job.poll(0.1);
   touched_.assign(tets.size(), 0);
   tet_of.assign(points.size(), -1);
   fixed.assign(points.size(), 0);
@@ -25,12 +26,14 @@ void TetComplex::connect(Job &job) {
     neighbours[first[0].tet()][first[0].corner()] = std::int32_t(first[1].tet());
     neighbours[first[1].tet()][first[1].corner()] = std::int32_t(first[0].tet());
   });
-  for (std::size_t t = 0; t < tets.size(); t++)
+  for (std::size_t t = 0; t < tets.size(); t++) {
+    if (t % stretch == 0) job.poll(0.1);
     for (std::size_t k = 0; k < 4; k++) {
       tet_of[std::size_t(tets[t][k])] = std::int32_t(t);
       if (neighbours[t][k] >= 0) continue;
       for (int corner : tet_face[k]) fixed[std::size_t(tets[t][std::size_t(corner)])] = 1;
     }
+  }
   find_touching(job);
 }
 
