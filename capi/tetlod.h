@@ -256,7 +256,7 @@ TETLOD_API tetlod_status tetlod_set_log(tetlod_context *context, tetlod_log_fn f
 /* stage: see tetlod_stage_name; fraction of that stage in [0, 1], never less than at the call before, if that was in
  * the same stage. Non-zero cancels the run. */
 typedef int32_t (*tetlod_progress_fn)(void *user, int32_t stage, double fraction);
-/* fn NULL: none (the default). Called every 5 to 50 ms in tetlod_run, on millions of tets up to 100 ms. */
+/* fn NULL: none (the default). Called every 5 to 50 ms in tetlod_run; on 8 million tets, some 100 at worst. */
 TETLOD_API tetlod_status tetlod_set_progress(tetlod_context *context, tetlod_progress_fn fn, void *user);
 /* Makes the run that is under way in another thread end with TETLOD_ERR_CANCELLED, as soon as progress would be called.
  * Without one under way it does nothing. */

@@ -26,7 +26,7 @@ bool cross(const Surface &surface, std::int32_t a, std::int32_t b) {
 
 /// What the host calls the corners of a triangle.
 std::array<long long, 3> names(const Surface &surface, std::int32_t triangle, std::int32_t index_base) {
-  const HostNumbers numbers = numbers_of(surface, index_base);
+  const HostNumbers numbers = host_numbers(surface, index_base);
   const Triangle &t = surface.triangles[std::size_t(triangle)];
   return {numbers.vertex(t[0]), numbers.vertex(t[1]), numbers.vertex(t[2])};
 }

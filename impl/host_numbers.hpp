@@ -17,6 +17,6 @@ struct HostNumbers {
   }
 };
 
-inline HostNumbers numbers_of(const Surface &surface, std::int64_t base) { return {base, surface.origin, {}}; }
+inline HostNumbers host_numbers(const Surface &surface, std::int64_t base) { return {base, surface.origin, {}}; }
 
 }  // namespace tetlod

@@ -95,8 +95,6 @@ double inner_scale(double tets, double most) {
 /// How many probes are due inside the first tets of a mesh.
 class InnerShares {
  public:
-  static constexpr std::size_t part = 16384;
-
   InnerShares(Span<const double> change_of_parts, std::size_t tets, double most) {
     const double change = std::accumulate(change_of_parts.begin(), change_of_parts.end(), 0.0);
     const double scale = inner_scale(double(tets), most);
@@ -112,31 +110,19 @@ class InnerShares {
   double per_tet_, by_changes_, all_changes_ = 0;  // 0, too, where the sum, of the largest doubles, is no number
 };
 
-/// The sum for each part of the tets.
-template <std::size_t m>
-Array<double> changes_of_parts(const MeshView &original, Job &job) {
-  constexpr std::size_t part = InnerShares::part;
-  Array<double> sums(original.tets.size() / part + 1, 0.0, &job.memory);
-  job.parallel.for_blocks(original.tets.size(), part, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; t++) sums[begin / part] += change_of<m>(original, original.tets[t]);
-    job.poll(0);
-  });
-  return sums;
-}
-
 template <std::size_t m>
 void add_inner(const MeshView &original, double most, Job &job, Array<Probe<m>> &probes) {
-  constexpr std::size_t part = InnerShares::part;
-  const Array<double> changes = changes_of_parts<m>(original, job);
   const std::size_t tets = original.tets.size();
+  const Array<double> changes =
+      parts_of(tets, 0.0, job, [&](double &sum, std::size_t t) { sum += change_of<m>(original, original.tets[t]); });
   const InnerShares shares(changes, tets, most);
   Array<double> due_before(1, 0.0, &job.memory);
   for (std::size_t i = 0; i < changes.size(); i++)
-    due_before.push_back(due_before.back() + shares.due(std::min(part, tets - i * part), changes[i]));
+    due_before.push_back(due_before.back() + shares.due(std::min(stretch, tets - i * stretch), changes[i]));
   const std::size_t before = probes.size();
   grow(probes, before + taken(due_before.back()), job);
-  job.parallel.for_blocks(tets, part, [&](std::size_t begin, std::size_t end) {
-    const double due = due_before[begin / part];
+  job.parallel.for_blocks(tets, stretch, [&](std::size_t begin, std::size_t end) {
+    const double due = due_before[begin / stretch];
     std::size_t next = taken(due);
     double change = 0;  // comes to the same as before, so that no part takes another's place
     for (std::size_t t = begin; t < end; t++) {
@@ -155,17 +141,12 @@ class Locator {
       : mesh_(mesh), frames_(&job.memory), together_(tets_an_item(mesh.tets.size())), tree_(job.memory) {
     while (!mesh.alive(start_)) start_++;
     Array<Box> boxes(mesh.tets.size() / together_ + 1, &job.memory);
-    frames_.reserve(mesh.tets.size());
-    // Some at a time: to touch the room for all at once takes long.
-    for (std::size_t first = 0; first < mesh.tets.size(); first += many) {
-      const std::size_t count = std::min(many, mesh.tets.size() - first);
-      frames_.resize(first + count);
-      job.parallel.for_blocks(count, block, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t t = first + begin; t < first + end; t++)
-          if (mesh.alive(std::int32_t(t))) add(std::int32_t(t), boxes[t / together_]);
-      });
+    grow(frames_, mesh.tets.size(), job);
+    job.parallel.for_blocks(mesh.tets.size(), block, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t t = begin; t < end; t++)
+        if (mesh.alive(std::int32_t(t))) add(std::int32_t(t), boxes[t / together_]);
       job.poll(0.1);
-    }
+    });
     tree_.build(std::move(boxes), leaf, job, 0.1);
   }
 
@@ -176,7 +157,6 @@ class Locator {
   }
 
  private:
-  static constexpr std::size_t many = 1 << 15;
   static constexpr std::int64_t leaf = 16;
 
   /// How many tets are one item of the tree. Those side by side in memory are so in space, mostly; and of many tets,

@@ -45,7 +45,7 @@ void Prepared::prepare_surface(Job &job) {
     Surface surface(job.memory);
     make_surface(original.view, boundary.triangles, job, surface);
     SurfaceTopology topology(job.memory);
-    find_topology(surface.points, surface.triangles, job, topology, numbers_of(surface, original.index_base));
+    find_topology(surface.points, surface.triangles, job, topology, host_numbers(surface, original.index_base));
     surface_ = std::move(surface);
     topology_ = std::move(topology);
     has_surface_ = true;

@@ -284,7 +284,7 @@ Error verdict_on(const Input &input, const Options &options, Job &job) {
     Surface surface(job.memory);
     make_surface(original.view, boundary.triangles, job, surface);
     SurfaceTopology topology(job.memory);
-    find_topology(surface.points, surface.triangles, job, topology, numbers_of(surface, input.index_base));
+    find_topology(surface.points, surface.triangles, job, topology, host_numbers(surface, input.index_base));
     refuse_crossing(surface, input.index_base, job);
   } catch (const Error &error) {
     if (!blames_the_mesh(error)) throw;

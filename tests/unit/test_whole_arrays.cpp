@@ -70,7 +70,7 @@ TEST_P(WholeArrays, FingerprintsTellEveryWord) {
     EXPECT_FALSE(fingerprint(host.job) == before) << i;
     reals[i] = 1.5;
   }
-  std::swap(reals[3], reals[stretch + 3] = 2);
+  reals[3] = 2;
   const Fingerprint first = fingerprint(host.job);
   std::swap(reals[3], reals[stretch + 3]);
   EXPECT_FALSE(fingerprint(host.job) == first) << "the order of the parts";
