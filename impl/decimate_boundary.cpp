@@ -384,7 +384,6 @@ DecimateReport decimate(Surface &surface, const SurfaceTopology &topology, Span<
   log.exhausted = report.edges_out > target;
   Surface simplified(job.memory);
   decimator.write(simplified);
-  report.deviation = largest_deviation(surface, simplified, samples_for(options.max_deviation), job);
   surface = std::move(simplified);
   return report;
 }

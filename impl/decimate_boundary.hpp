@@ -25,7 +25,6 @@ struct DecimateOptions {
 struct DecimateReport {
   std::int64_t edges_in = 0, edges_out = 0;  ///< of the cut surface
   std::int64_t cleaned_edges = 0;
-  double deviation = 0;  ///< between the surfaces, at samples_for() the limit
 };
 
 /// `topology` is the surface's own. Collapses edges of `surface`, lowest cost first, until at most sigma of its edges

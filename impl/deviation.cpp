@@ -35,7 +35,7 @@ double largest_distance(const Surface &from, const Surface &to, Samples samples,
   job.parallel.for_blocks(points.size(), block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; i++)
       largest[begin / block] = std::max(largest[begin / block], nearest.nearest(points[i]).distance);
-    job.poll(1);
+    job.poll(0);
   });
   return largest.empty() ? 0 : *std::max_element(largest.begin(), largest.end());
 }

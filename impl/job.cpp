@@ -20,7 +20,11 @@ void Job::poll(double fraction) {
   if (cancel && cancel->load(std::memory_order_relaxed)) fail(Status::cancelled, "cancelled by tetlod_cancel");
   if (seconds_left() <= 0)
     fail(Status::time_limit, "the time limit of %s seconds is used up", number(time_limit).c_str());
-  if (!progress || std::this_thread::get_id() != owner_) return;
+  if (std::this_thread::get_id() != owner_) {
+    if (parallel.is_cancelled()) fail(Status::cancelled, "cancelled with the work that this is part of");
+    return;
+  }
+  if (!progress) return;
   reached_ = std::max(reached_, std::clamp(fraction, 0.0, 1.0));
   const Clock::time_point now = Clock::now();
   if (now - last_call_ < progress_interval) return;

@@ -18,6 +18,10 @@ class Parallel {
     if (threads > 1) arena_ = std::make_unique<tbb::task_arena>(threads);
   }
   int threads() const noexcept { return threads_; }
+  tbb::task_arena *arena() const noexcept { return arena_.get(); }  ///< null with one thread
+
+  /// Whether what the calling thread does is of no use any more, because something that it is part of failed.
+  bool is_cancelled() const { return arena_ && tbb::is_current_task_group_canceling(); }
 
   /// body(begin, end) for consecutive blocks of `block` indices that cover [0, count), begun in order. The blocks do
   /// not depend on the number of threads, so a sum per block, added up in block order, is deterministic.
@@ -35,7 +39,7 @@ class Parallel {
     arena_->execute([&] {
       tbb::parallel_for(0, threads_, [&](int) {
         for (std::size_t b; (b = next.fetch_add(1, std::memory_order_acq_rel)) < blocks;) {
-          if (tbb::is_current_task_group_canceling()) break;
+          if (is_cancelled()) break;
           run(b);
         }
         done.fetch_add(1, std::memory_order_release);

@@ -2,17 +2,19 @@
 
 #include <chrono>
 
+#include "beside.hpp"
 #include "carry_fields.hpp"
 #include "cull_samples.hpp"
 #include "decimate_solid_and_check.hpp"
 #include "describe_boundary.hpp"
+#include "deviation.hpp"
 #include "find_crossing.hpp"
 #include "footprint.hpp"
 #include "geometry.hpp"
 #include "hash.hpp"
-#include "interpolate.hpp"
 #include "kept_vertices.hpp"
 #include "prepared.hpp"
+#include "reconstruct_field.hpp"
 #include "refine.hpp"
 #include "select_samples.hpp"
 #include "stage_timer.hpp"
@@ -52,6 +54,7 @@ class Pipeline {
   void run(Worker &worker) {
     begin();
     if (as_published(options_)) {
+      decimate(budget_.sigma);
       simplify(worker);
       reconstruct_field();
     } else {
@@ -62,9 +65,15 @@ class Pipeline {
   }
 
  private:
-  /// As the paper does, but for how it comes to its parameters.
+  /// As the paper does, but for how it comes to its parameters: fills the boundary, decimated less where TetGen finds
+  /// no way.
   void simplify(Worker &worker) {
-    while (!simplify_with(budget_.sigma, worker)) budget_.sigma = less_decimated(budget_.sigma);
+    while (!fill(worker)) {
+      if (budget_.sigma >= 1) throw Error(Status::remesh, failure_);
+      report_.boundary_retries++;
+      budget_.sigma = less_decimated(budget_.sigma);
+      decimate(budget_.sigma);
+    }
   }
 
   /// Where the bound does not hold because the boundary is too coarse, one with more triangles follows.
@@ -115,7 +124,7 @@ class Pipeline {
   }
 
   void remesh_to_target(Worker &worker) {
-    sample();
+    decimate_and_sample();
     simplify(worker);
     meet_target(worker);
     reconstruct_field();
@@ -171,7 +180,9 @@ class Pipeline {
         decimate(sigma);
         if (report_.boundary_edges_out >= edges) round = most_rounds;  // the topology allows no less
       }
-      if (!fill(worker)) return simplify(worker);
+      if (fill(worker)) continue;
+      decimate(budget_.sigma);
+      return simplify(worker);
     }
   }
 
@@ -193,15 +204,6 @@ class Pipeline {
     describe_insertions(refined.inserted_on_boundary, report_);
     report_.max_error = range > 0 ? refined.max_error / range : 0;  // what is constant stays so
     return std::move(refined.beyond_bound);
-  }
-
-  /// False: the boundary of this sigma cannot be remeshed, and one that is less decimated is left to try.
-  bool simplify_with(double sigma, Worker &worker) {
-    decimate(sigma);
-    if (fill(worker)) return true;
-    if (sigma >= 1) throw Error(Status::remesh, failure_);
-    report_.boundary_retries++;
-    return false;
   }
 
   /// False: TetGen finds no way.
@@ -262,23 +264,26 @@ class Pipeline {
       options.field_weight[k] = weight * original_.view.scales.weighted[k];
     const Prepared::Decimated decimated = prepared_.decimate(options, input_.index_base, job_, surface_);
     report_.cleaned_edges = decimated.cleaned_edges;
-    report_.max_deviation = decimated.deviation / diagonal;
     topology_ = SurfaceTopology(job_.memory);
     find_topology(surface_.points, surface_.triangles, job_, topology_);
     describe_simplified_boundary(topology_, report_);
     report_.reused_triangles = decimated.reused ? report_.boundary_triangles_out : 0;
   }
 
-  /// Of a point of the remeshed mesh; -1 where decimation or TetGen placed it.
-  std::int32_t original_vertex(std::int32_t origin) const {
-    const auto boundary = std::int32_t(surface_.points.size());
-    if (origin < 0) return -1;
-    return origin < boundary ? surface_.origin[std::size_t(origin)] : samples_[std::size_t(origin - boundary)];
-  }
-
   void sample() {
     const StageTimer timer(Stage::sample, job_, report_);
-    select_samples(original_, boundary_, options_, budget_.samples, job_, selected_);
+    select();
+    report_.selected_samples = std::int64_t(selected_.size());
+  }
+
+  void select() { select_samples(original_, boundary_, options_, budget_.samples, job_, selected_); }
+
+  /// Neither needs the other.
+  void decimate_and_sample() {
+    Beside sampling(job_, [this] { select(); });
+    decimate(budget_.sigma);
+    const StageTimer timer(Stage::sample, job_, report_);
+    sampling.finish();
     report_.selected_samples = std::int64_t(selected_.size());
   }
 
@@ -300,34 +305,25 @@ class Pipeline {
     Array<Vec3> sample_points(&job_.memory);
     sample_points.reserve(samples_.size());
     for (std::int32_t v : samples_) sample_points.push_back(original_.view.points[std::size_t(v)]);
-    tetlod::remesh(surface_, sample_points, worker, job_, remeshed_);
+    tetlod::remesh(surface_, sample_points, worker, job_, remeshed_, usual_points_at_once,
+                   [this] { measure_deviation(); });
     report_.samples = std::int64_t(samples_.size()) - remeshed_.report.dropped_samples;
     report_.steiner_points = remeshed_.report.steiner_points;
     report_.remesh_attempts = remeshed_.report.attempts;
     report_.worker_peak_bytes = remeshed_.report.worker_peak_bytes;
   }
 
+  void measure_deviation() {
+    double &deviation = prepared_.deviation();
+    if (deviation < 0)
+      deviation = largest_deviation(prepared_.surface(job_), surface_, samples_for(options_.max_deviation), job_);
+    report_.max_deviation = deviation / original_.box.diagonal();
+  }
+
   void reconstruct_field() {
     const StageTimer timer(Stage::values, job_, report_);
-    mesh_.scalars.clear();
-    mesh_.scalars.reserve(original_.view.fields * remeshed_.points.size());
-    std::size_t first_steiner = remeshed_.points.size();
-    for (std::size_t i = 0; i < remeshed_.points.size() && first_steiner > i; i++) {
-      const std::int32_t origin = remeshed_.origin[i];
-      if (origin < 0)
-        first_steiner = i;
-      else
-        add_known_values(std::size_t(origin));
-    }
-    Array<double> values(&job_.memory);
-    const Span<const Vec3> steiner{remeshed_.points.data() + first_steiner, remeshed_.points.size() - first_steiner};
-    interpolate(original_.view, boundary_.triangles, steiner, options_.tet_leaf, job_, values);
-    mesh_.scalars.insert(mesh_.scalars.end(), values.begin(), values.end());
-    origin_.clear();
-    for (std::int32_t origin : remeshed_.origin) origin_.push_back(original_vertex(origin));
-    mesh_.points = std::move(remeshed_.points);
-    mesh_.tets = std::move(remeshed_.tets);
-    mesh_.boundary = std::move(surface_.triangles);
+    tetlod::reconstruct_field(original_.view, boundary_, {surface_, samples_, remeshed_}, options_.tet_leaf, job_,
+                              mesh_, origin_);
   }
 
   void finish() {
@@ -341,14 +337,6 @@ class Pipeline {
     const StageTimer timer(Stage::values, job_, report_);
     carry_fields(input_, options_, original_, boundary_, job_, result_);
     split_fields(input_, job_, result_);
-  }
-
-  void add_known_values(std::size_t origin) {
-    const std::size_t boundary = surface_.points.size(), fields = original_.view.fields;
-    const double *const values =
-        origin < boundary ? surface_.scalars.data() + origin * fields
-                          : original_.view.scalars.data() + std::size_t(samples_[origin - boundary]) * fields;
-    mesh_.scalars.insert(mesh_.scalars.end(), values, values + fields);
   }
 
   const Input &input_;

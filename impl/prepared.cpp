@@ -1,7 +1,6 @@
 #include "prepared.hpp"
 
 #include "decimate_and_check.hpp"
-#include "deviation.hpp"
 
 namespace tetlod {
 
@@ -91,24 +90,18 @@ DecimateReport Prepared::decimate_logged(const DecimateOptions &options, Span<co
   if (reused) {
     const MovedValues way = options.sees_fields() ? MovedValues::logged : MovedValues::along_edges;
     replay(logged.log, std::size_t(count), topology_, way, job, surface);
-    if (logged.measured != count)
-      logged.deviation = largest_deviation(surface_, surface, samples_for(options.max_deviation), job);
-    logged.measured = count;
     report.cleaned_edges = logged.log.cleaned;
     report.edges_out = report.edges_in - 3 * count;
-    report.deviation = logged.deviation;
   } else {
-    verdicts_way_ = {};
+    verdicts_way_ = deviation_way_ = {};
     Logged fresh(job.memory);
     report = decimate_boundary(surface, topology_, flags, options, job, fresh.log);
-    fresh.measured = std::int64_t(fresh.log.collapses.size());
-    fresh.deviation = report.deviation;
     fresh.options = options;
     fresh.values = values;
     fresh.filled = true;
     logged = std::move(fresh);
   }
-  last_ = {options.careful, logged.measured};
+  last_ = {options.careful, reused ? count : std::int64_t(logged.log.collapses.size())};
   return report;
 }
 
@@ -122,7 +115,13 @@ Prepared::Decimated Prepared::decimate(const DecimateOptions &options, std::int3
     return decimate_logged(way, flags, job, surface, reused);
   };
   const DecimateReport report = decimate_and_check(out, topology_, options, index_base, job, decimate);
-  return {report.cleaned_edges, report.deviation, reused};
+  return {report.cleaned_edges, reused};
+}
+
+double &Prepared::deviation() {
+  if (deviation_way_ != last_) deviation_ = -1;
+  deviation_way_ = last_;
+  return deviation_;
 }
 
 SolidHistory &Prepared::history(bool keeps_earlier, Job &job) {

@@ -49,12 +49,15 @@ class Prepared {
 
   struct Decimated {
     std::int64_t cleaned_edges = 0;
-    double deviation = 0;  ///< as in DecimateReport
-    bool reused = false;   ///< no cost was computed
+    bool reused = false;  ///< no cost was computed
   };
   /// surface(), decimated, which crosses itself nowhere. Throws Status::mesh_intersecting, with vertices numbered from
   /// index_base.
   Decimated decimate(const DecimateOptions &options, std::int32_t index_base, Job &job, Surface &out);
+
+  /// How far surface() is from what decimate() made of it last, for the caller to measure; negative: that is to be
+  /// done.
+  double &deviation();
 
   /// Of the original while its edges collapsed, with the values that it has now, or, if asked for, with earlier ones.
   SolidHistory &history(bool keeps_earlier, Job &job);
@@ -76,8 +79,6 @@ class Prepared {
     CollapseLog log;
     DecimateOptions options;
     Fingerprint values;
-    std::int64_t measured = -1;  // so many collapses give
-    double deviation = 0;        // this
   };
 
   /// Which decimated surface.
@@ -98,6 +99,8 @@ class Prepared {
   double verdicts_distance_ = 0;
   std::int64_t verdicts_leaf_ = 0;
   Way verdicts_way_;
+  double deviation_ = 0;
+  Way deviation_way_;
 };
 
 }  // namespace tetlod

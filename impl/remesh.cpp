@@ -128,8 +128,9 @@ class Remeshing {
   Remeshing(const Remeshing &) = delete;
   Remeshing &operator=(const Remeshing &) = delete;
 
-  RemeshResult run() {
+  RemeshResult run(const std::function<void()> &meanwhile) {
     for (std::size_t process = 0; process < climbs_.size(); process++) start(process);
+    if (meanwhile) meanwhile();
     for (std::size_t left = parts_.count(); left > 0;) left -= finish_any();
     RemeshResult whole(job_.memory);
     if (results_.size() == 1)
@@ -194,11 +195,11 @@ class Remeshing {
 }  // namespace
 
 void remesh(const Surface &surface, Span<const Vec3> samples, Worker &worker, Job &job, RemeshResult &result,
-            std::size_t points_at_once) {
+            std::size_t points_at_once, const std::function<void()> &meanwhile) {
   check_samples(samples);
   const SurfaceFacts facts = check_surface(surface, job);
   const RemeshParts parts(surface, facts, samples, points_at_once, job);
-  result = Remeshing(surface, facts, samples, parts, worker, job).run();
+  result = Remeshing(surface, facts, samples, parts, worker, job).run(meanwhile);
 }
 
 }  // namespace tetlod

@@ -1,0 +1,36 @@
+// What another thread does beside what this one goes on with.
+#pragma once
+#include <tbb/task_group.h>
+
+#include <atomic>
+#include <exception>
+#include <functional>
+#include <optional>
+
+#include "job.hpp"
+
+namespace tetlod {
+
+/// Hands `body`, which depends on nothing that happens until finish(), to another thread of the job's, if it has one.
+class Beside {
+ public:
+  Beside(Job &job, std::function<void()> body);
+  /// Without finish() the body ends where it polls the job next, and what it throws is lost.
+  ~Beside();
+  Beside(const Beside &) = delete;
+  Beside &operator=(const Beside &) = delete;
+
+  /// Waits until the body is done; does it where no other thread has begun. Throws what it throws.
+  void finish();
+
+ private:
+  void take();
+
+  Job &job_;
+  std::function<void()> body_;
+  std::optional<tbb::task_group> group_;  // with one thread nothing of oneTBB is touched
+  std::atomic<bool> taken_, over_;
+  std::exception_ptr failure_;
+};
+
+}  // namespace tetlod
