@@ -9,7 +9,11 @@ namespace {
 bool has(const Tet &t, std::int32_t v) { return (t[0] == v) | (t[1] == v) | (t[2] == v) | (t[3] == v); }
 bool has(const Triangle &t, std::int32_t v) { return (t[0] == v) | (t[1] == v) | (t[2] == v); }
 
-/// Whether tet t, with its corner v at another place, would turn over, or be flat and flatter than it is.
+/// What a flat tet has to keep of its shape. Where most are flat, in a graded mesh, nothing could go without getting
+/// flatter.
+constexpr double kept_of_flat = 0.5;
+
+/// Whether tet t, with its corner v at another place, would turn over, or be flat and much flatter than it is.
 bool is_flattened(const SolidComplex &mesh, const Tet &t, std::int32_t v, const Vec3 &place) {
   const auto &face = tet_face[v == t[0] ? 0 : v == t[1] ? 1 : v == t[2] ? 2 : 3];
   const auto corner = [&](int i) { return mesh.point(t[std::size_t(face[i])]); };
@@ -21,7 +25,7 @@ bool is_flattened(const SolidComplex &mesh, const Tet &t, std::int32_t v, const 
   const double limit2 = mesh.measures.least_shape2;
   if (volume * volume > limit2 * most * most * most) return false;
   const double shape = shape2(place, a, b, c);
-  return shape < limit2 && shape < shape2(mesh.point(v), a, b, c);
+  return shape < limit2 && shape < kept_of_flat * kept_of_flat * shape2(mesh.point(v), a, b, c);
 }
 
 template <class Tets>

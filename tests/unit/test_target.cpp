@@ -237,6 +237,27 @@ TEST_F(TargetedRun, FlaggedVerticesKeepPlaceAndValue) {
   }
 }
 
+/// Most of its tets are flat, so that collapses have to make some flatter.
+TEST_F(TargetedRun, IsAccurateOnAGradedMesh) {
+  constexpr double grading = 1e4;
+  Mesh original = kuhn_cube(12);
+  transform(original, [](const Vec3 &p) {
+    const auto graded = [](double x) { return (std::pow(grading, x) - 1) / (grading - 1); };
+    return Vec3(graded(p.x), graded(p.y), graded(p.z));
+  });
+  set_scalars(original, waves);
+  for (std::int64_t effort : {effort_fast, effort_accurate}) {
+    collapse(effort);
+    for (double ratio : {0.2, 0.1, 0.05}) {
+      options.target_ratio = ratio;
+      simplify(original);
+      expect_sound(original, 1e-2);
+      expect_size(original);
+      EXPECT_LT(rms(original), 5e-5) << ratio;
+    }
+  }
+}
+
 /// Where its two sides are so near that their normals cancel around each edge of the rim.
 TEST_F(TargetedRun, KeepsTheVolumeOfAThinSlab) {
   Mesh original = kuhn_solid({30, 30, 1}, [](const Cell &) { return true; });
