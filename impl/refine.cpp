@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "adaptive_mesh.hpp"
+#include "fill_up.hpp"
 #include "fit_values.hpp"
 #include "flip_tets.hpp"
 #include "hold_bound.hpp"
@@ -56,8 +57,8 @@ class Refinement {
     if (enough.most_vertices < double(original_.points.size())) place_probes(original_, every_vertex(), job_, mesh_);
     if (options_.bound > 0)
       report_.beyond_bound = hold_bound(options_.bound, job_, mesh_);
-    else if (options_.before_lowering < options_.tets)
-      lower_largest(options_.tets, job_, mesh_);
+    else
+      use_up_tets();
     report_.max_error = largest_error(mesh_, job_).value;
     count_points();
     write();
@@ -92,6 +93,12 @@ class Refinement {
       flip();
       move(0);
     }
+  }
+
+  /// What passes left of them.
+  void use_up_tets() {
+    if (options_.before_lowering < options_.tets) lower_largest(options_.tets, job_, mesh_);
+    fill_up(options_.tets, job_, mesh_);
   }
 
   void move(std::size_t first) { move_vertices(first, job_, mesh_); }

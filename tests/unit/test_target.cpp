@@ -283,6 +283,16 @@ TEST_F(TargetedRun, MeetsItsSizeOfAConstantField) {
   expect_sizes(original, {0.2, 0.07}, 1e-2);
 }
 
+/// Passes take tets away where they are of no use, and find none but a corner to use them in.
+TEST_F(TargetedRun, MeetsItsSizeWhereMostOfTheFieldIsZero) {
+  Mesh original = kuhn_cube(18);
+  set_scalars(original, [](const Vec3 &p) { return p == Vec3(0) ? 1.0 : 0.0; });
+  for (std::int64_t effort : {effort_fast, effort_accurate}) {
+    collapse(effort);
+    expect_sizes(original, {0.7, 0.5, 0.2, 0.1}, 1e-3);
+  }
+}
+
 /// Nothing of a single cube can go, and remeshing makes no fewer of its tets.
 TEST_F(TargetedRun, NeverHasMoreTetsThanTheOriginal) {
   Mesh original;

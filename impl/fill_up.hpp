@@ -1,0 +1,14 @@
+// The size that was asked for, where no error asks for it.
+#pragma once
+#include "adaptive_mesh.hpp"
+#include "job.hpp"
+
+namespace tetlod {
+
+/// Where there are clearly fewer than `tets`: makes original vertices, with their own values, vertices of the mesh,
+/// first where a tet has many of them, until there are so many, but for two, or no tet has one that leaves sound
+/// shapes.
+template <std::size_t m>
+void fill_up(std::int64_t tets, Job &job, AdaptiveMesh<m> &mesh);
+
+}  // namespace tetlod
