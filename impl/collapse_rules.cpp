@@ -122,8 +122,8 @@ bool folds(const Star &star) {
   return false;
 }
 
-bool makes_sliver(const Star &star) {
-  const double least = std::min(sliver_quality, star.old_quality);
+bool makes_sliver(const Star &star, double kept) {
+  const double least = std::min(sliver_quality, kept * star.old_quality);
   for (std::size_t i = 0; i < star.size(); i++)
     if (triangle_quality(star.centre, star.ring[i], star.ring[star.after(i)]) < least) return true;
   return false;

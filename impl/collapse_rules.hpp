@@ -57,8 +57,8 @@ bool pinches_ring(const Star &star);
 bool turns_too_far(const Star &star);
 /// Two neighbouring triangles become a fold: the surface nearly lies back on itself.
 bool folds(const Star &star);
-/// A triangle gets worse than any was and worse than a sliver.
-bool makes_sliver(const Star &star);
+/// A triangle gets worse than a sliver, and keeps less than this part of the quality of the worst that there was.
+bool makes_sliver(const Star &star, double kept = 1);
 /// A spoke reaches another triangle of the surface or another spoke.
 bool crosses_surface(const Star &star, const SurfaceNow &surface);
 

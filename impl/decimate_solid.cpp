@@ -24,6 +24,9 @@ constexpr double part_of_round = 0.33;
 constexpr double tets_a_collapse = 5.5;
 /// Of the volume, that the boundary may lose.
 constexpr double volume_to_lose = 0.01;
+/// What slivers of the boundary have to keep of their quality: of walls that are stretched all triangles are slivers,
+/// as good as each other but for a little.
+constexpr double kept_of_sliver = 0.999;
 /// A best place further off than this part of the edge is none.
 constexpr double longest_step = 0.5;
 
@@ -315,7 +318,7 @@ class SolidDecimator {
     if (!collapse.of_boundary) return true;
     Star &star = collapse.star;
     return look_around_on_boundary(mesh_, collapse.edge, point, star) && !turns_too_far(star) && !folds(star) &&
-           !makes_sliver(star);
+           !makes_sliver(star, kept_of_sliver);
   }
 
   void make(const SolidCollapse<m> &collapse, Work &work, CollapseRoom &room) {

@@ -11,7 +11,7 @@ bool has(const Triangle &t, std::int32_t v) { return (t[0] == v) | (t[1] == v) |
 
 /// What a flat tet has to keep of its shape. Where most are flat, in a graded mesh, nothing could go without getting
 /// flatter.
-constexpr double kept_of_flat = 0.5;
+constexpr double kept_of_flat = 0.7;
 
 /// Whether tet t, with its corner v at another place, would turn over, or be flat and much flatter than it is.
 bool is_flattened(const SolidComplex &mesh, const Tet &t, std::int32_t v, const Vec3 &place) {

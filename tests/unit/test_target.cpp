@@ -258,6 +258,23 @@ TEST_F(TargetedRun, IsAccurateOnAGradedMesh) {
   }
 }
 
+/// Of thin slabs: all triangles of the boundary are slivers.
+TEST_F(TargetedRun, IsAccurateOnAStackOfSlabs) {
+  Mesh original = kuhn_solid({200, 1, 1}, [](const Cell &) { return true; });
+  transform(original, [](const Vec3 &p) { return Vec3(p.x / 200, p.y, p.z); });
+  set_scalars(original, waves);
+  for (std::int64_t effort : {effort_fast, effort_accurate}) {
+    collapse(effort);
+    for (double ratio : {0.5, 0.2, 0.1}) {
+      options.target_ratio = ratio;
+      simplify(original);
+      expect_sound(original, 1e-6);
+      expect_size(original);
+      EXPECT_LT(rms(original), 0.02) << ratio;
+    }
+  }
+}
+
 /// Where its two sides are so near that their normals cancel around each edge of the rim.
 TEST_F(TargetedRun, KeepsTheVolumeOfAThinSlab) {
   Mesh original = kuhn_solid({30, 30, 1}, [](const Cell &) { return true; });
