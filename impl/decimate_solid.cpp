@@ -24,9 +24,10 @@ constexpr double part_of_round = 0.33;
 constexpr double tets_a_collapse = 5.5;
 /// Of the volume, that the boundary may lose.
 constexpr double volume_to_lose = 0.01;
-/// What slivers of the boundary have to keep of their quality: of walls that are stretched all triangles are slivers,
-/// as good as each other but for a little.
-constexpr double kept_of_sliver = 0.999;
+/// What tets that are flat have to keep of their shape, and slivers of the boundary of their quality. In a graded mesh
+/// most tets are flat; on walls that are stretched all triangles are slivers, as good as each other but for a little.
+/// Nothing could go there without making some worse.
+constexpr double kept_of_flat = 0.7, kept_of_sliver = 0.999;
 /// A best place further off than this part of the edge is none.
 constexpr double longest_step = 0.5;
 
@@ -314,11 +315,11 @@ class SolidDecimator {
   bool suits(const Place &place, SolidCollapse<m> &collapse) {
     const Vec3 point = point_of(place);
     collapse.place = place;
-    if (flattens(mesh_, collapse.edge, point)) return false;
+    if (flattens(mesh_, collapse.edge, point, options_.holds_bound ? 1 : kept_of_flat)) return false;
     if (!collapse.of_boundary) return true;
     Star &star = collapse.star;
     return look_around_on_boundary(mesh_, collapse.edge, point, star) && !turns_too_far(star) && !folds(star) &&
-           !makes_sliver(star, kept_of_sliver);
+           !makes_sliver(star, options_.holds_bound ? 1 : kept_of_sliver);
   }
 
   void make(const SolidCollapse<m> &collapse, Work &work, CollapseRoom &room) {

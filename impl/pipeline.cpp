@@ -135,11 +135,13 @@ class Pipeline {
     describe_boundary(prepared_.topology(job_), report_);
     const StageTimer timer(Stage::decimate, job_, report_);
     const CollapseSizes sizes = collapse_sizes(budget_, options_);
-    const SolidOptions options{sizes.tets,          budget_.enough,  budget_.dearest,  deviation_limit(),
-                               options_.warm_start, kept_.by_host(), kept_.restored(), {}};
-    const std::string wrong =
-        decimate_solid_and_check(original_.view, boundary_, prepared_.surface(job_), prepared_.topology(job_), options,
-                                 sizes.lowered, prepared_.history(options_.warm_start > 0, job_), job_, coarse);
+    const bool holds_bound = options_.max_error > 0;
+    const SolidOptions options{sizes.tets,        budget_.enough,   budget_.dearest,
+                               deviation_limit(), holds_bound,      options_.warm_start,
+                               kept_.by_host(),   kept_.restored(), {}};
+    const std::string wrong = decimate_solid_and_check(
+        original_.view, boundary_, prepared_.surface(job_), prepared_.topology(job_), options, sizes.lowered,
+        prepared_.history(holds_bound, options_.warm_start > 0, job_), job_, coarse);
     report_.reused_collapses = coarse.reused;
     if (!wrong.empty() && job_.log) job_.log(1, ("edges collapsed in vain, so that it is remeshed: " + wrong).c_str());
     return wrong.empty();

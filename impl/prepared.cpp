@@ -124,8 +124,8 @@ double &Prepared::deviation() {
   return deviation_;
 }
 
-SolidHistory &Prepared::history(bool keeps_earlier, Job &job) {
-  history_.begin(original.view, keeps_earlier, job);
+SolidHistory &Prepared::history(bool holds_bound, bool keeps_earlier, Job &job) {
+  history_.begin(original.view, holds_bound, keeps_earlier, job);
   return history_;
 }
 

@@ -9,12 +9,9 @@ namespace {
 bool has(const Tet &t, std::int32_t v) { return (t[0] == v) | (t[1] == v) | (t[2] == v) | (t[3] == v); }
 bool has(const Triangle &t, std::int32_t v) { return (t[0] == v) | (t[1] == v) | (t[2] == v); }
 
-/// What a flat tet has to keep of its shape. Where most are flat, in a graded mesh, nothing could go without getting
-/// flatter.
-constexpr double kept_of_flat = 0.7;
-
-/// Whether tet t, with its corner v at another place, would turn over, or be flat and much flatter than it is.
-bool is_flattened(const SolidComplex &mesh, const Tet &t, std::int32_t v, const Vec3 &place) {
+/// Whether tet t, with its corner v at another place, would turn over, or be flat and keep less than `kept` of its
+/// shape.
+bool is_flattened(const SolidComplex &mesh, const Tet &t, std::int32_t v, const Vec3 &place, double kept) {
   const auto &face = tet_face[v == t[0] ? 0 : v == t[1] ? 1 : v == t[2] ? 2 : 3];
   const auto corner = [&](int i) { return mesh.point(t[std::size_t(face[i])]); };
   const Vec3 a = corner(0), b = corner(1), c = corner(2);
@@ -25,13 +22,13 @@ bool is_flattened(const SolidComplex &mesh, const Tet &t, std::int32_t v, const 
   const double limit2 = mesh.measures.least_shape2;
   if (volume * volume > limit2 * most * most * most) return false;
   const double shape = shape2(place, a, b, c);
-  return shape < limit2 && shape < kept_of_flat * kept_of_flat * shape2(mesh.point(v), a, b, c);
+  return shape < limit2 && shape < kept * kept * shape2(mesh.point(v), a, b, c);
 }
 
 template <class Tets>
-bool flattens_some(const SolidComplex &mesh, const Tets &tets, std::int32_t v, const Vec3 &place) {
+bool flattens_some(const SolidComplex &mesh, const Tets &tets, std::int32_t v, const Vec3 &place, double kept) {
   return std::any_of(tets.begin(), tets.end(),
-                     [&](std::int32_t t) { return is_flattened(mesh, mesh.tets[std::size_t(t)], v, place); });
+                     [&](std::int32_t t) { return is_flattened(mesh, mesh.tets[std::size_t(t)], v, place, kept); });
 }
 
 /// The triangle with the half-edge from -> to; -1 if there is none.
@@ -98,9 +95,9 @@ bool look_around(const SolidComplex &mesh, std::int32_t stays, std::int32_t gone
   return !edge.edge_tets.empty() && !(edge.stays_tets.empty() && edge.gone_tets.empty());
 }
 
-bool flattens(const SolidComplex &mesh, const SolidEdge &edge, const Vec3 &place) {
-  return (place != mesh.point(edge.stays) && flattens_some(mesh, edge.stays_tets, edge.stays, place)) ||
-         flattens_some(mesh, edge.gone_tets, edge.gone, place);
+bool flattens(const SolidComplex &mesh, const SolidEdge &edge, const Vec3 &place, double kept) {
+  return (place != mesh.point(edge.stays) && flattens_some(mesh, edge.stays_tets, edge.stays, place, kept)) ||
+         flattens_some(mesh, edge.gone_tets, edge.gone, place, kept);
 }
 
 bool look_around_on_boundary(const SolidComplex &mesh, const SolidEdge &edge, const Vec3 &place, Star &star) {

@@ -50,8 +50,9 @@ void SolidProgress::close_gaps(Span<const std::int32_t> number, Job &job) {
   std::iota(into.begin(), into.end(), 0);
 }
 
-void SolidHistory::begin(const MeshView &original, bool keeps_earlier, Job &job) {
+void SolidHistory::begin(const MeshView &original, bool holds_bound, bool keeps_earlier, Job &job) {
   Fingerprint values;
+  values.add(std::uint64_t(holds_bound));
   values.add(std::uint64_t(original.fields));
   for (std::size_t k = 0; k < original.fields; k++) values.add(original.scales.weighted[k]);
   values.add(original.scalars, job);

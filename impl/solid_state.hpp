@@ -60,8 +60,9 @@ class SolidHistory {
  public:
   explicit SolidHistory(Memory &memory) : states_(Array<SolidState<1>>(&memory)) {}
 
-  /// Forgets the states, unless they are of the same values, or those of earlier ones are to be kept.
-  void begin(const MeshView &original, bool keeps_earlier, Job &job);
+  /// Forgets the states, unless they are of the same values and were made for a bound like this, or those of earlier
+  /// ones are to be kept.
+  void begin(const MeshView &original, bool holds_bound, bool keeps_earlier, Job &job);
   bool is_earlier() const { return !(now_ == values_); }
   void forget_earlier(Memory &memory);
   void forget(Memory &memory) { *this = SolidHistory(memory); }

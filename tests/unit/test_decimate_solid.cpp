@@ -313,7 +313,7 @@ TEST_F(DecimateSolid, WhatItAdmitsSatisfiesTheLinkCondition) {
         Star star(host.memory);
         const Vec3 &place = solid.point(a);
         const bool on_boundary = solid.on_boundary(b);
-        const bool admits = look_around(solid, a, b, edge) && !flattens(solid, edge, place) &&
+        const bool admits = look_around(solid, a, b, edge) && !flattens(solid, edge, place, 0.7) &&
                             (!on_boundary || (look_around_on_boundary(solid, edge, place, star) && !folds(star)));
         EXPECT_TRUE(!admits || satisfies_link_condition(maximal, a, b)) << "edge " << a << " " << b;
         (admits ? admitted : refused)++;
