@@ -52,12 +52,12 @@ void SolidProgress::close_gaps(Span<const std::int32_t> number, Job &job) {
 
 void SolidHistory::begin(const MeshView &original, bool holds_bound, bool keeps_earlier, Job &job) {
   Fingerprint values;
-  values.add(std::uint64_t(holds_bound));
   values.add(std::uint64_t(original.fields));
   for (std::size_t k = 0; k < original.fields; k++) values.add(original.scales.weighted[k]);
   values.add(original.scalars, job);
   now_ = values;
-  if (is_earlier() && !keeps_earlier) forget_earlier(job.memory);
+  if (holds_bound != holds_bound_ || (is_earlier() && !keeps_earlier)) forget_earlier(job.memory);
+  holds_bound_ = holds_bound;
 }
 
 void SolidHistory::forget_earlier(Memory &memory) {

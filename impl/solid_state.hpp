@@ -60,8 +60,8 @@ class SolidHistory {
  public:
   explicit SolidHistory(Memory &memory) : states_(Array<SolidState<1>>(&memory)) {}
 
-  /// Forgets the states, unless they are of the same values and were made for a bound like this, or those of earlier
-  /// ones are to be kept.
+  /// Forgets the states, unless they are of the same values, or those of earlier ones are to be kept. For a bound there
+  /// are others.
   void begin(const MeshView &original, bool holds_bound, bool keeps_earlier, Job &job);
   bool is_earlier() const { return !(now_ == values_); }
   void forget_earlier(Memory &memory);
@@ -92,6 +92,7 @@ class SolidHistory {
   }
 
  private:
+  bool holds_bound_ = false;
   Fingerprint values_, now_;
   double usual_cost_ = 0;
   std::int64_t tets_of_cost_ = 0;
