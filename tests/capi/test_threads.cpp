@@ -67,6 +67,23 @@ TEST(Threads, TheirNumberDoesNotMatter) {
   }
 }
 
+/// Samples are taken beside the boundary's decimation; a small mesh is remeshed only where edges are to be cleaned.
+TEST(Threads, TheirNumberDoesNotMatterWhereSamplesAreRemeshed) {
+  const Cube cube(12);
+  const auto bytes_with = [&](std::int64_t threads) {
+    const Context context = make_context();
+    submit(context.get(), cube);
+    tetlod_set_preset(context.get(), TETLOD_PRESET_FAST);
+    tetlod_set_real(context.get(), TETLOD_OPT_TARGET_RATIO, 0.2);
+    tetlod_set_real(context.get(), TETLOD_OPT_CLEAN_EDGES, 1e-15);
+    tetlod_set_int(context.get(), TETLOD_OPT_THREADS, threads);
+    EXPECT_EQ(tetlod_run(context.get()), TETLOD_OK) << message_of(context.get());
+    return bytes_of(context.get());
+  };
+  const auto wanted = bytes_with(1);
+  for (std::int64_t threads : {2, 2, 3, 0}) EXPECT_EQ(bytes_with(threads), wanted) << threads << " threads";
+}
+
 TEST(Threads, AContextMayMoveBetweenThem) {
   const Cube cube(4);
   Context context;
