@@ -4,6 +4,7 @@
 #include <queue>
 
 #include "insert_vertices.hpp"
+#include "refine.hpp"
 #include "whole_arrays.hpp"
 
 namespace tetlod {
@@ -12,12 +13,9 @@ namespace {
 
 /// Part of the tets with which no more are needed.
 constexpr double near_enough = 0.98;
-/// That a vertex inside a tet brings.
-constexpr std::int64_t tets_a_vertex = 3;
 /// A vertex with more weight at a corner is no other place; with less at one, it goes onto the face of the others, or
-/// their edge, where a dozen tets more may be the outcome: of few tets that is too many.
+/// their edge.
 constexpr double near_corner = 0.8, near_face = 0.02;
-constexpr std::int64_t few = 500;
 
 /// How many of the original's vertices are in a tet, and which one is the furthest from its corners.
 struct Crowd {
@@ -49,7 +47,7 @@ template <std::size_t m>
 void fill_up(std::int64_t tets, Job &job, AdaptiveMesh<m> &mesh) {
   if (double(mesh.count()) >= near_enough * double(tets)) return;
   const auto has_room = [&] { return std::int64_t(mesh.count()) + tets_a_vertex <= tets; };
-  const double snap = tets < few ? 0 : near_face;
+  const double snap = tets < few_tets ? 0 : near_face;
   Array<Crowd> crowds = array_of(mesh.tets.size(), Crowd(), job);
   for_each(crowds.size(), job, [&](std::size_t t) {
     if (mesh.alive(std::int32_t(t))) crowds[t] = crowd_in(mesh, std::int32_t(t));

@@ -24,8 +24,6 @@ constexpr double snaps[] = {1e-4, 1e-6, 1e-9};
 constexpr double at_corner = 1e-6, near_corner = 1e-3;
 /// Flatter tets than elsewhere are taken, for the bound's sake.
 constexpr double flattest = 1e-11;
-/// That a vertex inside a tet brings.
-constexpr std::int64_t tets_a_vertex = 3;
 /// Sweeps that also flip, and in which values give way; the sweeps after them insert alone, which ends.
 constexpr int flipping_sweeps = 3, yielding_sweeps = 12;
 

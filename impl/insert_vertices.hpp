@@ -5,6 +5,9 @@
 
 namespace tetlod {
 
+/// That a vertex inside a tet brings.
+constexpr std::int64_t tets_a_vertex = 3;
+
 /// Splits the tets of largest error, each at the centre of its squared residuals, until `tets` more are there or none
 /// with an error is left. A centre near a face of the boundary goes onto it: the shape of the mesh stays. Returns how
 /// many vertices were inserted; their numbers are the last ones.

@@ -7,7 +7,6 @@
 #include "cull_samples.hpp"
 #include "decimate_solid_and_check.hpp"
 #include "describe_boundary.hpp"
-#include "deviation.hpp"
 #include "find_crossing.hpp"
 #include "footprint.hpp"
 #include "geometry.hpp"
@@ -273,21 +272,24 @@ class Pipeline {
   }
 
   void sample() {
-    const StageTimer timer(Stage::sample, job_, report_);
-    select();
-    report_.selected_samples = std::int64_t(selected_.size());
+    sample_by([this] { select(); });
   }
-
-  void select() { select_samples(original_, boundary_, options_, budget_.samples, job_, selected_); }
 
   /// Neither needs the other.
   void decimate_and_sample() {
     Beside sampling(job_, [this] { select(); });
     decimate(budget_.sigma);
+    sample_by([&] { sampling.finish(); });
+  }
+
+  template <class Sampling>
+  void sample_by(const Sampling &sampling) {
     const StageTimer timer(Stage::sample, job_, report_);
-    sampling.finish();
+    sampling();
     report_.selected_samples = std::int64_t(selected_.size());
   }
+
+  void select() { select_samples(original_, boundary_, options_, budget_.samples, job_, selected_); }
 
   void cull() {
     const StageTimer timer(Stage::cull, job_, report_);
@@ -316,9 +318,7 @@ class Pipeline {
   }
 
   void measure_deviation() {
-    double &deviation = prepared_.deviation();
-    if (deviation < 0)
-      deviation = largest_deviation(prepared_.surface(job_), surface_, samples_for(options_.max_deviation), job_);
+    const double deviation = prepared_.deviation(surface_, samples_for(options_.max_deviation), job_);
     report_.max_deviation = deviation / original_.box.diagonal();
   }
 

@@ -118,8 +118,8 @@ Prepared::Decimated Prepared::decimate(const DecimateOptions &options, std::int3
   return {report.cleaned_edges, reused};
 }
 
-double &Prepared::deviation() {
-  if (deviation_way_ != last_) deviation_ = -1;
+double Prepared::deviation(const Surface &decimated, Samples samples, Job &job) {
+  if (deviation_way_ != last_) deviation_ = largest_deviation(surface_, decimated, samples, job);
   deviation_way_ = last_;
   return deviation_;
 }

@@ -10,6 +10,7 @@
 #include <cstdint>
 
 #include "decimate_boundary.hpp"
+#include "deviation.hpp"
 #include "extract_boundary.hpp"
 #include "fingerprint.hpp"
 #include "pipeline.hpp"
@@ -55,9 +56,8 @@ class Prepared {
   /// index_base.
   Decimated decimate(const DecimateOptions &options, std::int32_t index_base, Job &job, Surface &out);
 
-  /// How far surface() is from what decimate() made of it last, for the caller to measure; negative: that is to be
-  /// done.
-  double &deviation();
+  /// Between surface() and what decimate() made of it last, at these samples of both.
+  double deviation(const Surface &decimated, Samples samples, Job &job);
 
   /// Of the original while its edges collapsed, for a bound or not, with the values that it has now, or, if asked for,
   /// with earlier ones.

@@ -28,12 +28,22 @@ class TargetedRun : public WholeRun {
     EXPECT_NEAR(double(report().tets_out) / (options.target_ratio * double(original.tets.size())), 1, 0.03);
   }
 
-  void expect_sizes(const Mesh &original, std::initializer_list<double> ratios, double volume_error) {
+  void expect_sizes(const Mesh &original, std::initializer_list<double> ratios, double volume_error,
+                    double largest_rms = std::numeric_limits<double>::infinity()) {
     for (double ratio : ratios) {
       options.target_ratio = ratio;
       simplify(original);
       expect_sound(original, volume_error);
       expect_size(original);
+      EXPECT_LT(rms(original), largest_rms) << ratio;
+    }
+  }
+
+  void expect_accurate(const Mesh &original, std::initializer_list<double> ratios, double volume_error,
+                       double largest_rms) {
+    for (std::int64_t effort : {effort_fast, effort_accurate}) {
+      collapse(effort);
+      expect_sizes(original, ratios, volume_error, largest_rms);
     }
   }
 };
@@ -246,16 +256,7 @@ TEST_F(TargetedRun, IsAccurateOnAGradedMesh) {
     return Vec3(graded(p.x), graded(p.y), graded(p.z));
   });
   set_scalars(original, waves);
-  for (std::int64_t effort : {effort_fast, effort_accurate}) {
-    collapse(effort);
-    for (double ratio : {0.2, 0.1, 0.05}) {
-      options.target_ratio = ratio;
-      simplify(original);
-      expect_sound(original, 1e-2);
-      expect_size(original);
-      EXPECT_LT(rms(original), 5e-5) << ratio;
-    }
-  }
+  expect_accurate(original, {0.2, 0.1, 0.05}, 1e-2, 5e-5);
 }
 
 /// Of thin slabs: all triangles of the boundary are slivers.
@@ -263,16 +264,7 @@ TEST_F(TargetedRun, IsAccurateOnAStackOfSlabs) {
   Mesh original = kuhn_solid({200, 1, 1}, [](const Cell &) { return true; });
   transform(original, [](const Vec3 &p) { return Vec3(p.x / 200, p.y, p.z); });
   set_scalars(original, waves);
-  for (std::int64_t effort : {effort_fast, effort_accurate}) {
-    collapse(effort);
-    for (double ratio : {0.5, 0.2, 0.1}) {
-      options.target_ratio = ratio;
-      simplify(original);
-      expect_sound(original, 1e-6);
-      expect_size(original);
-      EXPECT_LT(rms(original), 0.02) << ratio;
-    }
-  }
+  expect_accurate(original, {0.5, 0.2, 0.1}, 1e-6, 0.02);
 }
 
 /// Where its two sides are so near that their normals cancel around each edge of the rim.
