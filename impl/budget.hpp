@@ -22,7 +22,7 @@ constexpr double small_mesh = 1e5;
 /// A coarse mesh by collapsing edges is more accurate; one from samples is there sooner, where the mesh is large and
 /// little of it is kept, or so few tets that TetGen makes them soon. A bound alone asks for accuracy.
 inline bool samples_sooner(const Options &options, const Report &report) {
-  constexpr double soon_made = 25000, little = 0.04, most = 0.095;
+  constexpr double soon_made = 13000, little = 0.04, most = 0.065;
   const double tets = double(report.tets_in), ratio = options.target_ratio;
   return tets >= small_mesh && ratio > 0 && ratio <= std::clamp(soon_made / tets, little, most);
 }
