@@ -2,13 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <queue>
 
 #include "flip_tets.hpp"
 #include "give_way.hpp"
-#include "insert_vertices.hpp"
-#include "whole_arrays.hpp"
+#include "most_needed.hpp"
 
 namespace tetlod {
 
@@ -57,13 +54,6 @@ std::int32_t corner_at(const TetComplex &mesh, std::int32_t t, const Vec3 &p, do
   return w[most] > 1 - tolerance ? mesh.tets[std::size_t(t)][most] : -1;
 }
 
-/// Of tet t, when it was measured.
-struct Measured {
-  double error = 0;
-  std::int32_t tet = -1;  // none
-  bool operator<(const Measured &o) const { return error != o.error ? error < o.error : tet > o.tet; }
-};
-
 template <std::size_t m>
 class LargestErrors {
  public:
@@ -79,21 +69,14 @@ class LargestErrors {
   }
 
   void lower(std::int64_t tets) {
-    Array<Measured> errors = array_of(mesh_.tets.size(), Measured(), job_);
-    for_each(errors.size(), job_, [&](std::size_t t) {
-      if (mesh_.alive(std::int32_t(t))) errors[t] = {largest_in(mesh_, std::int32_t(t)).value, std::int32_t(t)};
+    const auto worst_in = [&](std::int32_t t) {
+      const LargestError worst = largest_in(mesh_, t);
+      return Need{worst.value, t, std::int32_t(worst.probe)};
+    };
+    serve_most_needed(tets, job_, mesh_, worst_in, [&](const Need &worst) -> const Array<std::int32_t> & {
+      if (!serve(worst.tet, mesh_.probes[std::size_t(worst.probe)])) around_.clear();
+      return around_;
     });
-    std::priority_queue largest(std::less<>(), std::move(errors));
-    for (std::size_t i = 0; std::int64_t(mesh_.count()) + tets_a_vertex <= tets && !largest.empty(); i++) {
-      if (i % 256 == 0) job_.poll(0.9);
-      const Measured next = largest.top();
-      largest.pop();
-      if (next.tet < 0 || !mesh_.alive(next.tet)) continue;
-      const LargestError worst = largest_in(mesh_, next.tet);
-      if (worst.probe < 0 || worst.value != next.error) continue;
-      if (!serve(next.tet, mesh_.probes[std::size_t(worst.probe)])) continue;
-      for (std::int32_t t : around_) largest.push({largest_in(mesh_, t).value, t});
-    }
   }
 
  private:
