@@ -24,13 +24,17 @@ double exact_shift(double low, double high) {
   return 0;
 }
 
+/// Less underflows in TetGen's exact arithmetic, of the fifth power, and it loops; beside the box it is nothing.
+double without_underflow(double x) { return std::abs(x) < 1e-40 ? 0 : x; }
+
 }  // namespace
 
 Vec3 Frame::unit(const Vec3 &p) const { return scaled(p, -magnitude); }
 
 Vec3 Frame::into(const Vec3 &p) const {
   const Vec3 q = unit(p) - shift;
-  return {std::ldexp(q.x, -zoom[0]), std::ldexp(q.y, -zoom[1]), std::ldexp(q.z, -zoom[2])};
+  const Vec3 zoomed{std::ldexp(q.x, -zoom[0]), std::ldexp(q.y, -zoom[1]), std::ldexp(q.z, -zoom[2])};
+  return {without_underflow(zoomed.x), without_underflow(zoomed.y), without_underflow(zoomed.z)};
 }
 
 Vec3 Frame::back(const Vec3 &q) const {

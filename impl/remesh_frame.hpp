@@ -7,7 +7,8 @@
 namespace tetlod {
 
 /// p -> (p * 2^-magnitude - shift) * 2^-zoom. Powers of two are exact. So is the shift: an axis is shifted only when
-/// its coordinates have one sign and differ by less than a factor of two, and then by one of them (Sterbenz).
+/// its coordinates have one sign and differ by less than a factor of two, and then by one of them (Sterbenz). What is
+/// less than 1e-40 of the box becomes 0.
 struct Frame {
   int magnitude = 0;
   Vec3 shift{0};
