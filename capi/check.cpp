@@ -76,6 +76,7 @@ tetlod_status tetlod_estimate_memory(tetlod_context *handle, uint64_t *bytes) {
     Job job(context.memory, context.parallel);
     connect_log(job, context);
     connect_progress(job, context);
-    *bytes = estimate_memory(with_scalars(context.input), context.options, job);
+    const Input input = with_scalars(context.input);
+    with_what_is_kept(context, [&] { *bytes = estimate_memory(input, context.options, context.prepared, job); });
   });
 }

@@ -41,29 +41,6 @@ std::unique_ptr<Outcome> fresh_outcome(tetlod_context &context) {
   return outcome;
 }
 
-void run_once(tetlod_context &context, Job &job, Outcome &outcome) {
-  try {
-    run(context.input, context.options, context.worker, context.prepared, job, outcome.result);
-    job.poll(1);  // who cancels before the end gets what was asked for
-  } catch (...) {
-    context.prepared.forget(context.memory);
-    throw;
-  }
-}
-
-/// What is kept of earlier runs is the first to go when memory is short.
-void run_with_what_is_kept(tetlod_context &context, Job &job, Outcome &outcome) {
-  const bool any_kept = !context.prepared.empty();
-  try {
-    return run_once(context, job, outcome);
-  } catch (const Error &error) {
-    const bool short_of_memory = error.status() == Status::memory || error.status() == Status::memory_limit;
-    if (!any_kept || !short_of_memory) throw;
-  }
-  outcome.result = Result(context.memory);
-  run_once(context, job, outcome);
-}
-
 void require_samples(std::int32_t samples_per_tet) {
   if (samples_per_tet < 0 || samples_per_tet > 100)
     fail(Status::argument, "samples_per_tet %d is not in [0, 100]", samples_per_tet);
@@ -114,7 +91,11 @@ tetlod_status tetlod_run(tetlod_context *handle) {
     connect_log(job, context);
     connect_progress(job, context);
     auto outcome = fresh_outcome(context);
-    run_with_what_is_kept(context, job, *outcome);
+    with_what_is_kept(context, [&] {
+      outcome->result = Result(context.memory);
+      run(context.input, context.options, context.worker, context.prepared, job, outcome->result);
+      job.poll(1);  // who cancels before the end gets what was asked for
+    });
     outcome->result.report.peak_bytes = context.memory.peak();
     context.outcome = std::move(outcome);
   });

@@ -83,7 +83,7 @@ enum {
   TETLOD_ERR_MESH_EMPTY = 30,        /* no points, no tets, or none left after repair */
   TETLOD_ERR_MESH_INDEX = 31,        /* a tet names a vertex that the mesh does not have */
   TETLOD_ERR_MESH_NONFINITE = 32,    /* NaN or infinity in a coordinate or value */
-  TETLOD_ERR_MESH_DEGENERATE = 33,   /* no volume, or an extent of zero */
+  TETLOD_ERR_MESH_DEGENERATE = 33,   /* no volume, an extent of 0, or what a policy refuses */
   TETLOD_ERR_MESH_NONMANIFOLD = 34,  /* a face with more than two tets */
   TETLOD_ERR_MESH_INTERSECTING = 35, /* the boundary crosses itself, or tets overlap */
   TETLOD_ERR_MESH_PARTITION = 36,    /* reserved for partitioned meshes */
@@ -326,7 +326,7 @@ enum {
   TETLOD_OPT_MAX_ERROR = 22,    /* real, "max-error": bound of the error at every original vertex, as a fraction of the
                                    values' range, for every field that steers; one that lies outside the result is
                                    compared at the nearest point of its boundary. Begins with target-ratio (0: where the
-                                   error is about twice the bound, 0.01 at least), changes values and takes the vertices
+                                   error is about twice the bound, or twice 0.04), changes values and takes the vertices
                                    that it needs; 0, the default: none. Where it cannot be held: TETLOD_ERR_MAX_ERROR */
   TETLOD_OPT_MAX_DEVIATION = 23, /* real, "max-deviation": bound of the distance between the boundaries of original and
                                    result, at vertices and middles of edges and triangles of both, as a fraction of the

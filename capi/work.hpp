@@ -2,6 +2,7 @@
 #pragma once
 #include "context.hpp"
 #include "job.hpp"
+#include "status.hpp"
 
 namespace tetlod::capi {
 
@@ -14,6 +15,28 @@ void require_submitted(const Input &input);
 /// now. A result compared with another input gives numbers that mean nothing, and nobody would notice. Flags and fields
 /// are left out: they are not needed again, and those of the run may be gone.
 Input original_of(const Outcome &outcome, const Input &now);
+
+/// body(), which may use and renew context.prepared. What is kept of earlier runs is the first to go when memory is
+/// short: then it is called again without. After a throw nothing is kept.
+template <class Body>
+void with_what_is_kept(tetlod_context &context, const Body &body) {
+  const bool any_kept = !context.prepared.empty();
+  const auto call = [&] {
+    try {
+      body();
+    } catch (...) {
+      context.prepared.forget(context.memory);
+      throw;
+    }
+  };
+  try {
+    return call();
+  } catch (const Error &error) {
+    const bool short_of_memory = error.status() == Status::memory || error.status() == Status::memory_limit;
+    if (!any_kept || !short_of_memory) throw;
+  }
+  call();
+}
 
 /// The work that begins here is what tetlod_cancel means from now on.
 void begin(tetlod_context &context);

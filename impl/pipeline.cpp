@@ -376,10 +376,9 @@ void run(const Input &input, const Options &options, Worker &worker, Prepared &p
   result.report.seconds_total = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-std::uint64_t estimate_memory(const Input &input, const Options &options, Job &job) {
+std::uint64_t estimate_memory(const Input &input, const Options &options, Prepared &prepared, Job &job) {
   job.memory.reset_peak();
   Result result(job.memory);
-  Prepared prepared(job.memory);
   Pipeline pipeline(input, options, prepared, job, result);
   pipeline.begin();
   const double in_use = double(job.memory.in_use());

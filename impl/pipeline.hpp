@@ -133,7 +133,7 @@ void run(const Input &input, const Options &options, Worker &worker, Job &job, R
 void run(const Input &input, const Options &options, Worker &worker, Prepared &prepared, Job &job, Result &result);
 
 /// What Report::peak_bytes of such a run would be, within a factor of 1.5 for sound meshes. Does the run's first
-/// stages, the cheap ones, and knows of the others what they take.
-std::uint64_t estimate_memory(const Input &input, const Options &options, Job &job);
+/// stages, the cheap ones, and knows of the others what they take; `prepared` then has them for the run.
+std::uint64_t estimate_memory(const Input &input, const Options &options, Prepared &prepared, Job &job);
 
 }  // namespace tetlod

@@ -44,17 +44,40 @@ static void error_row(FILE *to, const char *text, double value) {
   fprintf(to, "%*.4f %%\n", kNumberWidth, 100.0 * value);
 }
 
-static void parameters(FILE *to, const tetlod_context *context) {
+/* What a size or a bound goes by. */
+static void target_parameters(FILE *to, const tetlod_context *context, double ratio, double bound) {
+  double deviation = 0;
+  int64_t effort = 0;
+  tetlod_get_real(context, TETLOD_OPT_MAX_DEVIATION, &deviation);
+  tetlod_get_int(context, TETLOD_OPT_EFFORT, &effort);
+  if (ratio > 0) real_row(to, "target ratio", 100.0 * ratio, "% of tets");
+  if (bound > 0) real_row(to, "largest error allowed", 100.0 * bound, "% of range");
+  if (deviation > 0) real_row(to, "largest deviation allowed", 100.0 * deviation, "% of diagonal");
+  label(to, "effort");
+  fprintf(to, "%*s\n", kNumberWidth, effort == TETLOD_EFFORT_FAST ? "fast" : "accurate");
+}
+
+static void published_parameters(FILE *to, const tetlod_context *context) {
   double sigma = 0, rho = 0, lambda = 0, distance = 0;
   tetlod_get_real(context, TETLOD_OPT_SIGMA, &sigma);
   tetlod_get_real(context, TETLOD_OPT_RHO, &rho);
   tetlod_get_real(context, TETLOD_OPT_LAMBDA, &lambda);
   tetlod_get_real(context, TETLOD_OPT_MIN_DISTANCE, &distance);
-  fprintf(to, "Parameters\n");
   real_row(to, "boundary LOD (sigma)", 100.0 * sigma, "% of edges");
   real_row(to, "clustering (rho)", 100.0 * rho, "% of range");
   real_row(to, "shape weight (lambda)", lambda, "");
   real_row(to, "minimum distance", 100.0 * distance, "% of diagonal");
+}
+
+static void parameters(FILE *to, const tetlod_context *context) {
+  double ratio = 0, bound = 0;
+  tetlod_get_real(context, TETLOD_OPT_TARGET_RATIO, &ratio);
+  tetlod_get_real(context, TETLOD_OPT_MAX_ERROR, &bound);
+  fprintf(to, "Parameters\n");
+  if (ratio > 0 || bound > 0)
+    target_parameters(to, context, ratio, bound);
+  else
+    published_parameters(to, context);
 }
 
 static void repairs(FILE *to, const tetlod_run_report *run) {

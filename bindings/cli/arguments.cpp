@@ -1,6 +1,8 @@
 #include "arguments.hpp"
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <vector>
@@ -26,11 +28,11 @@ constexpr NumberOption kNumberOptions[] = {
     {"clean-edges", "boundary edges shorter than this are collapsed first, fraction of the diagonal"},
     {"target-ratio",
      "tets kept, fraction of the original's, with less error than the paper's method; 0: by rho and sigma"},
-    {"effort", "with a target ratio: 1 is fast, 2 accurate"},
+    {"effort", "with a target ratio or a bound: 1 is fast, 2 accurate"},
     {"max-error", "largest error allowed at the original vertices, fraction of the range; 0: no bound"},
     {"max-deviation", "largest distance allowed between the boundaries, fraction of the diagonal; 0: no bound"},
     {"threads", "0: one a core, which is what the tool does; the library's own default is"},
-    {"seed", "of the retries and of the error's samples"},
+    {"seed", "of the points at which the error is measured"},
     {"time-limit", "seconds for the simplification, 0: none"},
 };
 
@@ -68,6 +70,16 @@ double within(const std::string &flag, int64_t value, const tetlod_bounds &bound
       flag, std::to_string(value) + " is not in [" + std::to_string(least) + ", " + std::to_string(most) + "]");
 }
 
+// What is empty is mostly a variable of a script that was not set.
+std::string fault_if_empty(const std::string &text) { return text.empty() ? "an empty value" : ""; }
+
+// An integer that 64 bits do not hold; the conversion would take the nearest that they do.
+std::string fault_if_beyond_bits(const std::string &text) {
+  errno = 0;
+  std::strtoll(text.c_str(), nullptr, 10);
+  return errno == ERANGE ? text + " is out of range" : "";
+}
+
 void add_number(CLI::App &app, const NumberOption &option, Arguments &arguments) {
   const int32_t number = tetlod_option_from_name(option.name);
   const tetlod_bounds bounds = bounds_of(number);
@@ -76,7 +88,7 @@ void add_number(CLI::App &app, const NumberOption &option, Arguments &arguments)
     const auto store = [number, flag, bounds, &arguments](const int64_t &value) {
       arguments.numbers[number] = within(flag, value, bounds);
     };
-    app.add_option_function<int64_t>(flag, store, help)->type_name("N");
+    app.add_option_function<int64_t>(flag, store, help)->type_name("N")->check(fault_if_beyond_bits);
   } else {
     const auto store = [number, &arguments](const double &value) { arguments.numbers[number] = value; };
     app.add_option_function<double>(flag, store, help)->type_name("X");
@@ -125,7 +137,8 @@ void add_options(CLI::App &app, Arguments &arguments) {
       ->take_all()
       ->allow_extra_args(false);  // what follows is INPUT or OUTPUT
   const auto preset = [&arguments](const std::string &name) { arguments.preset = preset_named(name); };
-  app.add_option_function<std::string>("--preset", preset, "sets the other options: paper, fast, accurate")
+  app.add_option_function<std::string>(
+         "--preset", preset, "sets the other options: paper, the default; fast or accurate, with a target ratio of 0.1")
       ->type_name("NAME");
   for (const NumberOption &option : kNumberOptions) add_number(app, option, arguments);
   for (const NumberOption &option : kPolicyOptions) add_policy(app, option, arguments);
@@ -133,6 +146,8 @@ void add_options(CLI::App &app, Arguments &arguments) {
   app.add_option("--pictures", arguments.pictures, "writes pictures of both meshes and a report.html there")
       ->type_name("DIR");
   app.add_flag("--quiet", arguments.quiet, "prints errors only");
+  for (CLI::Option *option : app.get_options())
+    if (option->get_expected_min() > 0) option->check(fault_if_empty);
 }
 
 std::string joined(int argc, char **argv) {

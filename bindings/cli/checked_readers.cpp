@@ -1,7 +1,11 @@
 #include "checked_readers.hpp"
 
+#include <vtkAbstractArray.h>
 #include <vtkObjectFactory.h>
 #include <vtkXMLDataElement.h>
+
+#include <cstring>
+#include <string>
 
 namespace cli {
 namespace {
@@ -14,6 +18,27 @@ bool will_do(vtkXMLDataElement &piece, const char *count) {
   const char *text = piece.GetAttribute(count);
   vtkTypeInt64 number = 0;
   return text == nullptr || (piece.GetScalarAttribute(count, number) == 1 && 0 <= number && number <= kMost);
+}
+
+// What is wrong with an array's declaration, or those inside of the element; empty: nothing.
+std::string wrong_array(vtkXMLDataElement &element) {
+  constexpr vtkTypeInt64 most = 1 << 20;  // components
+  const char *const components = element.GetAttribute("NumberOfComponents"), *const type = element.GetAttribute("type");
+  vtkTypeInt64 number = 1;
+  if (components != nullptr &&
+      (element.GetScalarAttribute("NumberOfComponents", number) != 1 || number < 1 || number > most))
+    return std::string("NumberOfComponents=\"") + components + "\" is no number of them";
+  if (type != nullptr && std::strcmp(type, "String") == 0 && std::strcmp(element.GetName(), "Array") != 0)
+    return std::string(element.GetName()) + " cannot be of type String";
+  for (int i = 0; i < element.GetNumberOfNestedElements(); i++)
+    if (const std::string wrong = wrong_array(*element.GetNestedElement(i)); !wrong.empty()) return wrong;
+  return {};
+}
+
+// Room for one kind of values is no room for another.
+bool same_kind(vtkAbstractArray *a, vtkAbstractArray *b) {
+  return a != nullptr && b != nullptr && a->GetDataType() == b->GetDataType() &&
+         a->GetNumberOfComponents() == b->GetNumberOfComponents();
 }
 
 }  // namespace
@@ -29,7 +54,33 @@ int CheckedReader::ReadPiece(vtkXMLDataElement *piece) {
     piece->SetAttribute("NumberOfPoints", "0");
     piece->SetAttribute("NumberOfCells", "0");
   }
+  if (const std::string wrong = wrong_array(*piece); !wrong.empty()) {
+    vtkErrorMacro(<< wrong);
+    return 0;
+  }
   return vtkXMLUnstructuredGridReader::ReadPiece(piece);
+}
+
+int CheckedPartsReader::ReadPrimaryElement(vtkXMLDataElement *primary) {
+  if (const std::string wrong = wrong_array(*primary); !wrong.empty()) {
+    vtkErrorMacro(<< wrong);
+    return 0;
+  }
+  return vtkXMLPUnstructuredGridReader::ReadPrimaryElement(primary);
+}
+
+void CheckedPartsReader::CopyArrayForPoints(vtkAbstractArray *from, vtkAbstractArray *to) {
+  if (same_kind(from, to))
+    vtkXMLPUnstructuredGridReader::CopyArrayForPoints(from, to);
+  else
+    vtkErrorMacro(<< "an array of the points is of another type in a piece");
+}
+
+void CheckedPartsReader::CopyArrayForCells(vtkAbstractArray *from, vtkAbstractArray *to) {
+  if (same_kind(from, to))
+    vtkXMLPUnstructuredGridReader::CopyArrayForCells(from, to);
+  else
+    vtkErrorMacro(<< "an array of the cells is of another type in a piece");
 }
 
 vtkXMLDataReader *CheckedPartsReader::CreatePieceReader() { return CheckedReader::New(); }

@@ -1,4 +1,4 @@
-// VTK's readers of XML, where they take the counts of a piece on trust.
+// VTK's readers of XML, where they take on trust what a piece says of its counts and arrays.
 #pragma once
 
 #include <vtkXMLPUnstructuredGridReader.h>
@@ -28,6 +28,9 @@ class CheckedPartsReader : public vtkXMLPUnstructuredGridReader {
   CheckedPartsReader() = default;
   ~CheckedPartsReader() override = default;
   vtkXMLDataReader *CreatePieceReader() override;
+  int ReadPrimaryElement(vtkXMLDataElement *primary) override;
+  void CopyArrayForPoints(vtkAbstractArray *from, vtkAbstractArray *to) override;
+  void CopyArrayForCells(vtkAbstractArray *from, vtkAbstractArray *to) override;
 };
 
 }  // namespace cli

@@ -18,12 +18,12 @@ class Failure : public std::runtime_error {
   ExitStatus status_;
 };
 
-// The words of a text of several lines, a blank between them.
+// The words of a text of several lines, a blank between them; other control characters become question marks.
 inline std::string one_line(const std::string &text) {
   std::string line;
   for (char c : text) {
     const bool blank = c == '\n' || c == '\r' || c == '\t' || c == ' ';
-    if (!blank) line += c;
+    if (!blank) line += static_cast<unsigned char>(c) < ' ' || c == '\x7f' ? '?' : c;
     if (blank && !line.empty() && line.back() != ' ') line += ' ';
   }
   while (!line.empty() && line.back() == ' ') line.pop_back();

@@ -54,7 +54,8 @@ void run(const Arguments &arguments) {
   OutputFile result(arguments.output);
   std::optional<OutputFile> report;
   if (!arguments.report.empty()) report.emplace(arguments.report);
-  if (!arguments.pictures.empty()) prepare_pictures(arguments.pictures);
+  PicturesFolder pictures;
+  if (!arguments.pictures.empty()) pictures.make(arguments.pictures);
   ProgressBar bar(arguments.quiet);
   Notes notes;
   ToolSeconds seconds;

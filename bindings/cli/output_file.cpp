@@ -24,10 +24,19 @@ Path target_of(const Path &path, int links = 40) {
   return target_of(path.parent_path() / link, links - 1);
 }
 
-// The process number keeps runs side by side apart. It ends as the path does, which a link's target may not.
+// The process number and a count keep files apart, and the name short. It ends as the path does, which a link's target
+// may not.
 Path temporary_name(const Path &path, const Path &target) {
-  const std::string name = "." + target.filename().string() + "." + std::to_string(getpid());
+  static int count = 0;
+  const std::string name = ".tetlod." + std::to_string(getpid()) + "." + std::to_string(count++);
   return target.parent_path() / (name + path.extension().string());
+}
+
+// Who may read what is replaced may read what replaces it, nobody else.
+void copy_permissions(const std::string &from, const std::string &to) {
+  std::error_code nothing_there;
+  const auto status = std::filesystem::status(from, nothing_there);
+  if (std::filesystem::exists(status)) std::filesystem::permissions(to, status.permissions(), nothing_there);
 }
 
 }  // namespace
@@ -43,6 +52,7 @@ OutputFile::~OutputFile() { std::remove(temporary_.c_str()); }
 
 void OutputFile::keep() {
   std::error_code error;
+  copy_permissions(target_, temporary_);
   std::filesystem::rename(temporary_, target_, error);
   if (error) fail(error.message());
 }

@@ -6,11 +6,13 @@
 namespace cli {
 namespace {
 
-// VTK writes "ERROR: In file, line 1\nvtkClass (0x1234): what was wrong\n\n".
+// VTK writes "ERROR: In file, line 1\nvtkClass (0x1234): what was wrong\n\n", or "Generic Warning: In file, line 1\n"
+// and that.
 std::string what_was_wrong(const char *text) {
   const std::string whole(text);
-  const std::size_t object = whole.find("): ");
-  return one_line(object == std::string::npos ? whole : whole.substr(object + 3));
+  const std::size_t object = whole.find("): "), generic = whole.find("Generic Warning: "), line = whole.find('\n');
+  if (object != std::string::npos) return one_line(whole.substr(object + 3));
+  return one_line(generic == 0 && line != std::string::npos ? whole.substr(line) : whole);
 }
 
 }  // namespace
@@ -26,6 +28,8 @@ void VtkMessages::check(const std::string &path, std::vector<std::string> &notes
   const std::string where = path.empty() ? "" : path + ": ";
   std::vector<std::string> errors;
   errors.swap(errors_);
+  errors.insert(errors.end(), unread_.begin(), unread_.end());
+  unread_.clear();
   for (const std::string &warning : warnings_) notes.push_back(where + warning);
   warnings_.clear();
   if (!errors.empty()) throw Failure(where + errors.front(), status);
@@ -33,6 +37,11 @@ void VtkMessages::check(const std::string &path, std::vector<std::string> &notes
 
 void VtkMessages::DisplayErrorText(const char *text) { errors_.push_back(what_was_wrong(text)); }
 void VtkMessages::DisplayWarningText(const char *text) { warnings_.push_back(what_was_wrong(text)); }
-void VtkMessages::DisplayGenericWarningText(const char *text) { warnings_.push_back(what_was_wrong(text)); }
+
+// Of a .vtk file whose data ends too soon VTK says no more than that; where it finds more to say, that is said first.
+void VtkMessages::DisplayGenericWarningText(const char *text) {
+  const bool is_error = std::string(text).find("Error reading") != std::string::npos;
+  (is_error ? unread_ : warnings_).push_back(what_was_wrong(text));
+}
 
 }  // namespace cli

@@ -32,7 +32,7 @@ class VtkMessages : public vtkOutputWindow {
   ~VtkMessages() override = default;
 
  private:
-  std::vector<std::string> errors_, warnings_;
+  std::vector<std::string> errors_, unread_, warnings_;
 };
 
 }  // namespace cli

@@ -26,6 +26,8 @@
 #include <vector>
 
 namespace tetlod {
+// The library has a tetlod::Error of its own, which a program that links it statically must not take for this one.
+inline namespace wrapper {
 
 class Error : public std::runtime_error {
  public:
@@ -322,6 +324,7 @@ class Context {
   std::shared_ptr<Callbacks> callbacks_;  // in place when the context moves; shared with a call under way
 };
 
+}  // namespace wrapper
 }  // namespace tetlod
 
 #endif

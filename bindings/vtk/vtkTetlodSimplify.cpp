@@ -86,7 +86,7 @@ void vtkTetlodSimplify::SetOption(const char *name, double value) {
       context.set_real(option, value);
     this->Modified();
   } catch (const tetlod::Error &error) {
-    vtkErrorMacro(<< error.what());
+    this->Fail(error.status(), error.what());
   }
 }
 
@@ -96,7 +96,7 @@ double vtkTetlodSimplify::GetOption(const char *name) {
     const int32_t option = option_named(name);
     return is_integer(option) ? static_cast<double>(context.get_int(option)) : context.get_real(option);
   } catch (const tetlod::Error &error) {
-    vtkErrorMacro(<< error.what());
+    this->Fail(error.status(), error.what());
     return 0;
   }
 }
@@ -106,7 +106,7 @@ void vtkTetlodSimplify::SetPreset(int preset) {
     this->Inside->context.set_preset(preset);
     this->Modified();
   } catch (const tetlod::Error &error) {
-    vtkErrorMacro(<< error.what());
+    this->Fail(error.status(), error.what());
   }
 }
 
@@ -129,7 +129,7 @@ void vtkTetlodSimplify::AddSteeringArray(const char *name, double weight) {
     in.steering = steering;
     this->Modified();
   } catch (const tetlod::Error &error) {
-    vtkErrorMacro(<< error.what());
+    this->Fail(error.status(), error.what());
   }
 }
 
@@ -238,9 +238,13 @@ int vtkTetlodSimplify::RequestData(vtkInformation *, vtkInformationVector **inpu
     outputs->GetInformationObject(0)->Set(vtkDemandDrivenPipeline::DATA_NOT_GENERATED(), 1);
     return 1;
   }
-  this->SetErrorCode(static_cast<unsigned long>(vtkErrorCode::UserError + status));
-  vtkErrorMacro(<< message);
+  this->Fail(status, message.c_str());
   return 0;
+}
+
+void vtkTetlodSimplify::Fail(int status, const char *message) {
+  this->ErrorCode = static_cast<unsigned long>(vtkErrorCode::UserError + status);  // which is no modification
+  vtkErrorMacro(<< message);
 }
 
 void vtkTetlodSimplify::PrintSelf(ostream &os, vtkIndent indent) {

@@ -14,7 +14,8 @@
  *     filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "density");
  *
  * unless told, the active scalars, else the first point array of one component. AddSteeringArray names others that
- * steer beside it. All other point and cell arrays of numbers ride along. Input array 1 may name a point array of
+ * steer beside it. All other point and cell arrays of numbers, of up to
+ * 64 components, ride along. Input array 1 may name a point array of
  * unsigned chars with the flags of tetlod.h (TETLOD_FLAG_KEEP, TETLOD_FLAG_LOCK).
  *
  * Arrays of floats or doubles are read in place, interleaved (AOS) or one component after another (SOA), as are 32 and
@@ -95,7 +96,7 @@ class VTKTETLOD_EXPORT vtkTetlodSimplify : public vtkUnstructuredGridAlgorithm {
   vtkTypeInt64 GetBoundaryLeaf();
   ///@}
   ///@{
-  /** Tets in a leaf of the interpolation tree, at most. Default 500. */
+  /** Tets that go down the tree of the points together when values are located, at most. Default 500. */
   void SetTetLeaf(vtkTypeInt64 tets);
   vtkTypeInt64 GetTetLeaf();
   ///@}
@@ -216,6 +217,7 @@ class VTKTETLOD_EXPORT vtkTetlodSimplify : public vtkUnstructuredGridAlgorithm {
   struct Internals;
   bool OnProgress(int stage, double fraction);
   void Execute(vtkUnstructuredGrid *input, vtkUnstructuredGrid *output);
+  void Fail(int status, const char *message);
 
   std::unique_ptr<Internals> Inside;
   bool MeasureError = false;

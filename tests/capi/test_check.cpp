@@ -294,4 +294,19 @@ TEST(EstimateMemory, KnowsTargetsBoundsAndFields) {
       }
 }
 
+/// What a context keeps of earlier runs is there once, and the next run may go without some of it.
+TEST(EstimateMemory, KnowsWhatIsKeptOfEarlierRuns) {
+  Cube cube(24);
+  for (double ratio : {0.0, 0.1, 0.5}) {
+    const Context context = make_context();
+    submit(context.get(), cube);
+    ASSERT_EQ(tetlod_set_real(context.get(), TETLOD_OPT_TARGET_RATIO, ratio), TETLOD_OK);
+    for (int run = 0; run < 3; run++) {
+      expect_estimate(context.get(), "ratio " + std::to_string(ratio) + ", run " + std::to_string(run));
+      if (run > 0)
+        for (double &value : cube.values) value = std::sin(3 * value);
+    }
+  }
+}
+
 }  // namespace

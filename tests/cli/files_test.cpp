@@ -190,6 +190,17 @@ TEST_F(Files, AResultIsWrittenWhereALinkLeads) {
   EXPECT_EQ(folder.names(), (std::vector<std::string>{"far", "in.vtk", "near.vtu", "out.vtu", "report.json"}));
 }
 
+TEST_F(Files, AResultKeepsItsPermissionsAndMayHaveALongName) {
+  namespace fs = std::filesystem;
+  write_cube(folder / "in.vtk", {});
+  const std::string out = folder / (std::string(250, 'n') + ".vtu");
+  std::ofstream(out) << "old";
+  fs::permissions(out, fs::perms::owner_read | fs::perms::owner_write);
+  run(folder / "in.vtk", out);
+  EXPECT_EQ(fs::status(out).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+  EXPECT_GT(fs::file_size(out), 100U);
+}
+
 TEST_F(Files, NothingIsLeftBesideTheResult) {
   run_on({});
   EXPECT_EQ(folder.names(), (std::vector<std::string>{"in.vtk", "out.vtu", "report.json"}));

@@ -57,8 +57,10 @@ TEST_F(Usage, WrongCommandLines) {
   expect_failure(run_tool({in, out, "--sigma", "1e9"}), 2, "sigma");
   expect_failure(run_tool({in, out, "--threads", "-3"}), 2, "threads");
   expect_failure(run_tool({in, out, "--threads", "1.5"}), 2, "--threads");
-  for (const char *seed : {"-1", "9007199254740993", "9223372036854775807", "9223372036854775808"})
-    expect_failure(run_tool({in, out, "--seed", seed}), 2, "--seed");
+  for (const char *seed : {"-1", "9007199254740993", "9223372036854775807", "99999999999999999999"})
+    expect_failure(run_tool({in, out, "--seed", seed}), 2, seed);
+  for (const char *option : {"--target-ratio", "--threads", "--field", "--report", "--pictures", "--on-flat"})
+    expect_failure(run_tool({in, out, option, ""}), 2, option);
   expect_failure(run_tool({in, out, "--preset", "none-such"}), 2, "none-such");
   expect_failure(run_tool({in, out, "--steer", "other:-1"}), 2, "field other: weight -1");
   expect_failure(run_tool({in, out, "--steer", "other:nan"}), 2, "field other: weight nan");
@@ -108,6 +110,48 @@ TEST_F(Usage, CountsThatAreNone) {
       expect_failure(run_tool({parts, out}), 1, std::string(name) + "=\"" + count);
     }
   }
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+// Wherever a file of the old format ends, in numbers or in bytes, it is too short.
+TEST_F(Usage, FilesThatEndTooSoon) {
+  const std::string in = folder / "in.vtk", whole_file = folder / "whole.vtk", out = folder / "out.vtu";
+  write_cube(in, {});
+  ASSERT_EQ(run_tool({in, whole_file, "--sigma", "1"}).status, 0);
+  for (const std::string &from : {in, whole_file}) {
+    const std::string whole = contents_of(from);
+    const std::size_t values = whole.rfind("LOOKUP_TABLE");
+    for (std::size_t end : {values, whole.find('\n', values) + 1, (values + whole.size()) / 2}) {
+      std::ofstream(folder / "part.vtk", std::ios::binary) << whole.substr(0, end);
+      expect_failure(run_tool({folder / "part.vtk", out}), 1, "part.vtk: ");
+    }
+  }
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+// A summary that is not that of its piece; VTK would copy into room for something else, or never end.
+TEST_F(Usage, ArraysThatAreNotAsDeclared) {
+  const std::string in = folder / "in.vtu", out = folder / "out.vtu", parts = folder / "parts.pvtu";
+  write_cube(folder / "in.vtk", {});
+  ASSERT_EQ(run_tool({folder / "in.vtk", in}).status, 0);
+  const auto expect_refused = [&](const std::string &of_points, const std::string &of_heat) {
+    std::ofstream(parts) << R"(<VTKFile type="PUnstructuredGrid" version="0.1"><PUnstructuredGrid>
+<PPointData><PDataArray Name="heat" )" +
+                                of_heat + R"(/></PPointData><PPoints><PDataArray )" + of_points +
+                                R"(/></PPoints><Piece Source="in.vtu"/></PUnstructuredGrid></VTKFile>)";
+    expect_failure(run_tool_for_a_minute({parts, out}), 1, "parts.pvtu: ");
+  };
+  const std::string points = R"(type="Float64" NumberOfComponents="3")", heat = R"(type="Float64")";
+  expect_refused(R"(type="Float32" NumberOfComponents="3")", heat);
+  expect_refused(R"(type="Float64" NumberOfComponents="4294967296")", heat);
+  expect_refused(points, R"(type="Int8")");
+  expect_refused(points, R"(type="Float64" NumberOfComponents="2")");
+  expect_refused(points, R"(type="String")");
+  std::string text = contents_of(in);
+  const std::size_t named = text.rfind("<DataArray", text.find("Name=\"heat\""));
+  text.replace(text.find("Float64", named), 7, "String");
+  std::ofstream(in, std::ios::binary) << text;
+  expect_failure(run_tool({in, out}), 1, "String");
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 
@@ -200,7 +244,9 @@ TEST_F(Usage, NamesThatXmlCannotHave) {
   for (const auto &[encoded, name] : names) {
     Cube cube;
     cube.other = encoded;
-    expect_failure(run_on(cube), 1, "'" + std::string(name) + "'");
+    std::string printed = name;
+    std::replace(printed.begin(), printed.end(), '\x01', '?');
+    expect_failure(run_on(cube), 1, "'" + printed + "'");
     expect_only_input();
     const Outcome legacy = run_tool({folder / "in.vtk", folder / "out.vtk", "--quiet"});
     EXPECT_EQ(legacy.status, 0) << legacy.err;

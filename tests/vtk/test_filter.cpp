@@ -71,6 +71,7 @@ TEST_F(Filter, APropertyOutOfBoundsIsAnErrorAndKeepsItsValue) {
   filter->SetRho(0.25);
   const vtkMTimeType then = filter->GetMTime();
   filter->SetRho(1.5);
+  EXPECT_EQ(filter->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::UserError + TETLOD_ERR_OPTION));
   filter->SetOption("threads", 0.5);
   filter->SetOption("no-such-option", 1);
   filter->SetPreset(17);

@@ -43,11 +43,19 @@ std::vector<DrawnFigure> all_figures(const Pair &pair) {
 
 }  // namespace
 
-void prepare_pictures(const std::string &folder) {
+void PicturesFolder::make(const std::string &folder) {
+  using Path = std::filesystem::path;
   std::error_code error;
+  for (Path path = folder; !path.empty() && !std::filesystem::exists(path, error); path = path.parent_path())
+    made_.push_back(path);
   std::filesystem::create_directories(folder, error);
   if (error) throw Failure(folder + ": cannot be made: " + error.message());
-  const OutputFile probe((std::filesystem::path(folder) / "report.html").string());
+  const OutputFile probe((Path(folder) / "report.html").string());
+}
+
+PicturesFolder::~PicturesFolder() {
+  std::error_code not_empty;
+  for (const std::filesystem::path &path : made_) std::filesystem::remove(path, not_empty);
 }
 
 void write_pictures(const Arguments &arguments, vtkUnstructuredGrid *original, vtkUnstructuredGrid *simplified,

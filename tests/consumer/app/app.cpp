@@ -1,9 +1,21 @@
-// The C++ wrapper of an installed tetlod: a cube of six tets with a linear field comes back exact.
+// The C++ wrapper of an installed tetlod: a cube of six tets with a linear field comes back exact; a failure is told.
 #include <cmath>
 #include <cstdio>
 #include <tetlod.hpp>
 
+// The library's exceptions stay inside, also where both are linked into one program.
+static bool fails_as_told() {
+  tetlod::Context lod;
+  try {
+    lod.run();
+  } catch (const tetlod::Error &error) {
+    return error.status() == TETLOD_ERR_STATE;
+  }
+  return false;
+}
+
 int main() {
+  if (!fails_as_told()) return 1;
   try {
     double xyz[24], values[8];
     for (int v = 0; v < 8; v++) {
