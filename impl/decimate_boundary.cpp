@@ -188,7 +188,7 @@ class Decimator {
                            const LinkSums &link, double length2_e) const {
     const FieldQuadric<3 + m> quadric = quadrics_.of_edge(from.idx(), to.idx());
     Values<m> mean;
-    for (std::size_t k = 0; k < m; k++) mean[k] = 0.5 * (at(values_, from)[k] + at(values_, to)[k]);
+    for (std::size_t k = 0; k < m; k++) mean[k] = 0.5 * at(values_, from)[k] + 0.5 * at(values_, to)[k];
     Vector<3 + m> x = quadrics_.with_values(0.5 * (point(from) + point(to)), mean);
     if (fixed.is_valid()) {
       x = quadrics_.with_values(point(fixed), at(values_, fixed));
@@ -282,6 +282,7 @@ class Decimator {
     HalfedgeHandle h = mesh_.halfedge_handle(edge, 0);
     if (at(locked_, mesh_.from_vertex_handle(h))) h = mesh_.opposite_halfedge_handle(h);
     const Placement placement = place(h);
+    if (!std::isfinite(placement.cost)) return;
     if (breaks_topology(h) || joins_sheets(h) || !look_around(h, placement.point)) return;
     if (pinches_ring(star_) || turns_too_far(star_) || folds(star_) || makes_sliver(star_)) return;
     if (deviation_ && deviation_->is_passed(star_)) return;

@@ -1,5 +1,7 @@
 #include "fit_values.hpp"
 
+#include <cmath>
+
 #include "cholesky.hpp"
 
 namespace tetlod {
@@ -115,12 +117,12 @@ class Fit {
     return z;
   }
 
-  /// Of the fields that are not solved; 0 of the others, which stay.
+  /// Of the fields that are not solved, and whose squares a double holds; 0 of the others, which stay.
   static Values<m> quotient(const Values<m> &above, const Values<m> &below, const Values<m> &rr,
                             const Values<m> &start) {
     Values<m> quotient{};
     for (std::size_t k = 0; k < m; k++)
-      if (is_left(rr[k], start[k])) quotient[k] = above[k] / below[k];
+      if (is_left(rr[k], start[k]) && std::isfinite(above[k] / below[k])) quotient[k] = above[k] / below[k];
     return quotient;
   }
 
@@ -199,6 +201,7 @@ class Fit {
   /// Within what was seen.
   void take(const Array<Values<m>> &change) {
     for (std::size_t v = 0; v < change.size(); v++) {
+      if (mesh_.kept[v]) continue;
       Values<m> values = mesh_.values[v];
       for (std::size_t k = 0; k < m; k++) values[k] += change[v][k] / mesh_.scales.weighted[k];
       mesh_.values[v] = seen_[v].clamp(values);

@@ -39,6 +39,7 @@ class Pipeline {
   /// What needs neither decimation nor remeshing.
   void begin() {
     prepare();
+    if (options_.max_error > 0) refuse_lost_fields(input_, original_);
     extract();
     budget_.sigma = options_.sigma;
     if (as_published(options_))
@@ -58,6 +59,7 @@ class Pipeline {
       reconstruct_field();
     } else {
       run_to_target(worker);
+      if (options_.max_error > 0 && report_.max_error > options_.max_error) fail_bound();
     }
     finish();
     carry();
@@ -154,7 +156,11 @@ class Pipeline {
     report_.max_deviation = coarse.deviation / original_.box.diagonal();
     describe_simplified_boundary(topology_, report_);
     report_.samples = report_.selected_samples = std::int64_t(mesh_.points.size()) - report_.boundary_points_out;
-    report_.samples_outside = report_.samples_too_near = report_.steiner_points = 0;  // of a round before
+    // Of a round before:
+    report_.samples_outside = report_.samples_too_near = report_.steiner_points = report_.reused_samples = 0;
+    report_.boundary_retries = report_.remesh_attempts = 0;
+    report_.cleaned_edges = report_.reused_triangles = 0;
+    report_.worker_peak_bytes = 0;
   }
 
   double deviation_limit() const { return options_.max_deviation * original_.box.diagonal(); }

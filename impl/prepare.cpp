@@ -72,10 +72,8 @@ void add_values(const MeshView &mesh, std::size_t v, Ranges &ranges) {
 }
 
 /// Away from the ends of doubles, so that what is scaled by it can be scaled back.
-double sane_scale(double scale) {
-  constexpr double least = 1e-250, most = 1e250;
-  return scale > least ? std::min(scale, most) : least;
-}
+constexpr double least_scale = 1e-250, largest_scale = 1e250;
+double sane_scale(double scale) { return scale > least_scale ? std::min(scale, largest_scale) : least_scale; }
 
 /// Not more than a double holds.
 double range_of(const Ranges &ranges, std::size_t k) {
@@ -328,6 +326,13 @@ bool renew_values(const Input &input, Job &job, Original &original) {
   }
   find_scales(input, ranges, original);
   return true;
+}
+
+void refuse_lost_fields(const Input &input, const Original &original) {
+  for (std::size_t k = 1; k < original.view.fields; k++)
+    if (original.view.scales.relative[k] >= largest_scale)
+      fail(Status::max_error, "max-error cannot be held for field %.100s: beside a range of %s its own is nothing",
+           input.steering[k - 1].name.c_str(), number(original.range).c_str());
 }
 
 }  // namespace tetlod

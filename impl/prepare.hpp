@@ -45,4 +45,7 @@ void prepare_original(const Input &input, const Options &options, Job &job, Orig
 /// prepare_original, because the values change what the mesh is, or are none.
 bool renew_values(const Input &input, Job &job, Original &original);
 
+/// For a bound: throws Status::max_error where the errors of a field would be rounded away beside the scalars' range.
+void refuse_lost_fields(const Input &input, const Original &original);
+
 }  // namespace tetlod

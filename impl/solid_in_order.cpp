@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "geometry.hpp"
+#include "predicates.hpp"
 #include "sort_by_place.hpp"
 #include "whole_arrays.hpp"
 
@@ -51,7 +52,7 @@ Array<std::int32_t> first_vertices(const MeshView &original, const Boundary &bou
 Tet upright(Tet tet, Span<const std::int32_t> number, Span<const Vec3> points) {
   for (std::int32_t &v : tet) v = number[std::size_t(v)];
   const auto p = [&](std::size_t k) { return points[std::size_t(tet[k])]; };
-  if (det(p(0), p(1), p(2), p(3)) < 0) std::swap(tet[2], tet[3]);
+  if (orientation(p(0), p(1), p(2), p(3)) < 0) std::swap(tet[2], tet[3]);
   return tet;
 }
 

@@ -62,7 +62,9 @@ void SolidHistory::begin(const MeshView &original, bool holds_bound, bool keeps_
 
 void SolidHistory::forget_earlier(Memory &memory) {
   const Fingerprint now = now_;
+  const bool bound = holds_bound_;
   forget(memory);
+  holds_bound_ = bound;
   values_ = now_ = now;
 }
 

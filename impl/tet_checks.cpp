@@ -37,7 +37,7 @@ bool make_positive(Span<const Vec3> points, Tet &tet) {
   for (const auto &order : even) {
     for (std::size_t k = 0; k < 4; k++) tet[k] = old[order[k]];
     if (looks_positive(at(tet[0]), at(tet[1]), at(tet[2]), at(tet[3])))
-      return tet == old || orientation(at(tet[0]), at(tet[1]), at(tet[2]), at(tet[3])) > 0;
+      return orientation(at(tet[0]), at(tet[1]), at(tet[2]), at(tet[3])) > 0;
   }
   return false;
 }

@@ -370,5 +370,31 @@ TEST_F(Reuse, MemoryThatIsShort) {
   context.reset();  // before its allocator goes
 }
 
+/// Values so far from those before that what these left is forgotten in the middle of a run for a bound.
+TEST_F(Reuse, WhatARunForABoundKeepsIsNotTakenForASize) {
+  cube = Cube(10);
+  for (double &x : cube.xyz) x *= x * x;
+  const auto run = [&](double bound, double warm_start) {
+    options = {[=](tetlod_context *of) {
+      tetlod_set_real(of, TETLOD_OPT_TARGET_RATIO, 0.1);
+      tetlod_set_real(of, TETLOD_OPT_MAX_ERROR, bound);
+      tetlod_set_real(of, TETLOD_OPT_WARM_START, warm_start);
+    }};
+    set_up(context.get());
+    EXPECT_EQ(tetlod_run(context.get()), TETLOD_OK) << message_of(context.get());
+  };
+  for (std::size_t v = 0; v < cube.values.size(); v++) cube.values[v] = cube.xyz[3 * v] * cube.xyz[3 * v];
+  run(0.5, 0.25);
+  for (std::size_t v = 0; v < cube.values.size(); v++)
+    cube.values[v] = std::tanh(9 * (cube.xyz[3 * v + 1] + 0.3 * std::sin(7 * cube.xyz[3 * v]) - 0.5));
+  run(0.5, 0.25);
+  options = {[](tetlod_context *of) {
+    tetlod_set_real(of, TETLOD_OPT_TARGET_RATIO, 0.1);
+    tetlod_set_real(of, TETLOD_OPT_MAX_ERROR, 0);
+    tetlod_set_real(of, TETLOD_OPT_WARM_START, 0);
+  }};
+  expect_fresh_bytes();
+}
+
 }  // namespace
 }  // namespace tetlod_test
