@@ -1,5 +1,6 @@
 // Vertices that have to survive.
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <set>
 
@@ -164,6 +165,31 @@ TEST_F(Flags, WhatIsRefused) {
   ASSERT_EQ(tetlod_clear(context.get()), TETLOD_OK);
   submit(context.get(), cube);
   run();
+}
+
+/// Where collapses leave too many tets it is remeshed; where that leaves more, the collapsed mesh is the result.
+TEST_F(Flags, NothingIsToldOfARemeshingThatWasThrownAway) {
+  cube = Cube(3);
+  for (std::size_t i = 0; i < cube.xyz.size(); i++) cube.xyz[i] += 0.02 * std::sin(7 * double(i));
+  submit(context.get(), cube);
+  int number = 0;
+  flag(TETLOD_FLAG_KEEP, [&](const Point &) { return number++ % 2 == 0; });
+  long collapsed = 0;
+  const auto listen = [](void *user, std::int32_t, const char *message) {
+    const char *const at = std::strstr(message, "left to collapse at ");
+    if (at) *static_cast<long *>(user) = std::atol(at + std::strlen("left to collapse at "));
+  };
+  ASSERT_EQ(tetlod_set_log(context.get(), listen, &collapsed, 0), TETLOD_OK);
+  tetlod_set_real(context.get(), TETLOD_OPT_TARGET_RATIO, 0.05);
+  tetlod_set_int(context.get(), TETLOD_OPT_EFFORT, TETLOD_EFFORT_FAST);
+  run();
+  tetlod_run_report report{};
+  report.struct_size = sizeof report;
+  ASSERT_EQ(tetlod_fetch_report(context.get(), &report), TETLOD_OK);
+  ASSERT_EQ(report.tets_out, collapsed);
+  EXPECT_EQ(report.remesh_attempts, 0);
+  EXPECT_EQ(report.boundary_retries, 0);
+  EXPECT_EQ(report.worker_peak_bytes, 0U);
 }
 
 }  // namespace
