@@ -1,6 +1,14 @@
 #include "adaptive_mesh.hpp"
 
+#include <limits>
+
 namespace tetlod {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+}  // namespace
 
 template <std::size_t m>
 void AdaptiveMesh<m>::connect(Job &job) {
@@ -17,7 +25,7 @@ void AdaptiveMesh<m>::measure(std::int32_t t) {
     f.weights(probes[std::size_t(p)].point, w);
     sum += square(residual(tets[std::size_t(t)], w, probes[std::size_t(p)]));
   });
-  error[std::size_t(t)] = sum;
+  error[std::size_t(t)] = sum >= 0 ? sum : infinity;  // differences of the largest doubles may be no numbers
 }
 
 template <std::size_t m>
