@@ -23,13 +23,14 @@ bool will_do(vtkXMLDataElement &piece, const char *count) {
 // What is wrong with an array's declaration, or those inside of the element; empty: nothing.
 std::string wrong_array(vtkXMLDataElement &element) {
   constexpr vtkTypeInt64 most = 1 << 20;  // components
+  const std::string name = element.GetName();
   const char *const components = element.GetAttribute("NumberOfComponents"), *const type = element.GetAttribute("type");
   vtkTypeInt64 number = 1;
   if (components != nullptr &&
-      (element.GetScalarAttribute("NumberOfComponents", number) != 1 || number < 1 || number > most))
+      (element.GetScalarAttribute("NumberOfComponents", number) != 1 || number < 0 || number > most))
     return std::string("NumberOfComponents=\"") + components + "\" is no number of them";
-  if (type != nullptr && std::strcmp(type, "String") == 0 && std::strcmp(element.GetName(), "Array") != 0)
-    return std::string(element.GetName()) + " cannot be of type String";
+  if (type != nullptr && std::strcmp(type, "String") == 0 && (name == "DataArray" || name == "PDataArray"))
+    return name + " cannot be of type String";
   for (int i = 0; i < element.GetNumberOfNestedElements(); i++)
     if (const std::string wrong = wrong_array(*element.GetNestedElement(i)); !wrong.empty()) return wrong;
   return {};
