@@ -23,6 +23,7 @@ class AdaptiveMesh : public TetComplex {
         error(&memory),
         probes(&memory),
         vertex_of_probe(&memory),
+        outside(&memory),
         first_probe(&memory),
         next_probe(&memory) {}
 
@@ -31,7 +32,8 @@ class AdaptiveMesh : public TetComplex {
   Array<double> error;      ///< of each tet: the sum of squares at its probes
   Array<Probe<m>> probes;   ///< first those at original vertices
   std::size_t vertex_probes = 0;
-  Array<std::int32_t> vertex_of_probe;          ///< the original vertex of each of those
+  Array<std::int32_t> vertex_of_probe;  ///< the original vertex of each of those
+  Array<std::uint8_t> outside;          ///< of each: it lies outside, the probe on the boundary; empty: none does
   Array<std::int32_t> first_probe, next_probe;  ///< lists of the probes in each tet, ended by -1
 
   /// Finds the neighbours of `tets`, which has no free slot yet; all else of a tet is empty.
@@ -59,6 +61,8 @@ class AdaptiveMesh : public TetComplex {
     for (std::size_t i = 1; i < m; i++) sum += counts[i] * counts[i];
     return sum;
   }
+
+  bool is_outside(std::int32_t probe) const { return !outside.empty() && outside[std::size_t(probe)]; }
 
   template <class Visit>
   void for_probes(std::int32_t t, const Visit &visit) const {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "flip_tets.hpp"
 #include "give_way.hpp"
@@ -24,14 +26,19 @@ constexpr double flattest = 1e-11;
 /// Sweeps that also flip, and in which values give way; the sweeps after them insert alone, which ends.
 constexpr int flipping_sweeps = 3, yielding_sweeps = 12;
 
+/// Of a residual: as if all ranges were the first's.
+template <std::size_t m>
+double largest_part(const AdaptiveMesh<m> &mesh, const Values<m> &residual) {
+  double largest = std::abs(residual[0]);
+  for (std::size_t k = 1; k < m; k++) largest = std::max(largest, mesh.scales.relative[k] * std::abs(residual[k]));
+  return largest;
+}
+
 template <std::size_t m>
 double error_at(const AdaptiveMesh<m> &mesh, const TetFrame &frame, std::int32_t t, std::int32_t p) {
   double w[4];
   frame.weights(mesh.probes[std::size_t(p)].point, w);
-  const Values<m> r = mesh.residual(mesh.tets[std::size_t(t)], w, mesh.probes[std::size_t(p)]);
-  double largest = std::abs(r[0]);
-  for (std::size_t k = 1; k < m; k++) largest = std::max(largest, mesh.scales.relative[k] * std::abs(r[k]));
-  return largest;
+  return largest_part(mesh, mesh.residual(mesh.tets[std::size_t(t)], w, mesh.probes[std::size_t(p)]));
 }
 
 template <std::size_t m>
@@ -57,15 +64,19 @@ std::int32_t corner_at(const TetComplex &mesh, std::int32_t t, const Vec3 &p, do
 template <std::size_t m>
 class LargestErrors {
  public:
-  LargestErrors(Job &job, AdaptiveMesh<m> &mesh) : job_(job), mesh_(mesh), around_(&job.memory), left_(&job.memory) {}
+  LargestErrors(Job &job, AdaptiveMesh<m> &mesh)
+      : job_(job), mesh_(mesh), around_(&job.memory), left_(&job.memory), beneath_(&job.memory) {}
 
   Array<std::int32_t> hold(double bound) {
     for (std::size_t p = 0; p < mesh_.vertex_probes; p++) range_.add(mesh_.probes[p].value);
     for (int sweep = 0;; sweep++) {
       const std::int64_t served = serve_beyond((1 - margin) * bound, sweep < yielding_sweeps);
-      if (served == 0) return std::move(left_);
+      if (served == 0) break;
       if (sweep < flipping_sweeps) flip_tets(mesh_.total_error() / double(mesh_.count()), job_, mesh_);
     }
+    for (const auto &[probe, vertex] : beneath_)
+      if (error_above(vertex, probe) > bound) left_.push_back(mesh_.vertex_of_probe[std::size_t(probe)]);
+    return std::move(left_);
   }
 
   void lower(std::int64_t tets) {
@@ -74,7 +85,7 @@ class LargestErrors {
       return Need{worst.value, t, std::int32_t(worst.probe)};
     };
     serve_most_needed(tets, job_, mesh_, worst_in, [&](const Need &worst) -> const Array<std::int32_t> & {
-      if (!serve(worst.tet, mesh_.probes[std::size_t(worst.probe)])) around_.clear();
+      if (!serve(worst.tet, worst.probe)) around_.clear();
       return around_;
     });
   }
@@ -91,8 +102,7 @@ class LargestErrors {
       const LargestError worst = largest_in(mesh_, std::int32_t(t));
       if (worst.value <= bound) continue;
       const auto probe = std::int32_t(worst.probe);
-      if ((values_yield && give_way(std::int32_t(t), probe, bound, range_, mesh_)) ||
-          serve(std::int32_t(t), mesh_.probes[std::size_t(probe)]))
+      if ((values_yield && give_way(std::int32_t(t), probe, bound, range_, mesh_)) || serve(std::int32_t(t), probe))
         done++;
       else
         left_.push_back(mesh_.vertex_of_probe[std::size_t(worst.probe)]);
@@ -101,17 +111,40 @@ class LargestErrors {
   }
 
   /// Makes it a vertex, whose tets are around_ then.
-  bool serve(std::int32_t t, const Probe<m> probe) {
+  bool serve(std::int32_t t, std::int32_t p) {
+    const Probe<m> probe = mesh_.probes[std::size_t(p)];
     const std::int32_t corner = corner_at(mesh_, t, probe.point, near_corner);
     if (corner >= 0 && give_values(corner, probe.value)) return true;
     if (corner >= 0 && corner_at(mesh_, t, probe.point, at_corner) >= 0) return false;
-    for (double snap : snaps)
-      if (insert_vertex(t, probe.point, probe.value, snap, flattest, mesh_)) {
-        mesh_.kept.back() = held;
-        mesh_.star(std::int32_t(mesh_.points.size()) - 1, around_);
-        return true;
-      }
+    for (double snap : snaps) {
+      if (!insert_vertex(t, probe.point, probe.value, snap, flattest, mesh_)) continue;
+      mesh_.kept.back() = held;
+      mesh_.star(std::int32_t(mesh_.points.size()) - 1, around_);
+      if (mesh_.is_outside(p) && !mesh_.fixed.back()) beneath_.push_back({p, std::int32_t(mesh_.points.size()) - 1});
+      return true;
+    }
     return false;
+  }
+
+  /// Of a vertex just beneath the boundary, which serves nobody who looks there from outside: the error of the probe on
+  /// the nearest face above.
+  double error_above(std::int32_t v, std::int32_t p) {
+    const Probe<m> &probe = mesh_.probes[std::size_t(p)];
+    double nearest2 = std::numeric_limits<double>::infinity(), error = 0;
+    mesh_.star(v, around_);
+    for (std::int32_t t : around_)
+      for (std::size_t k = 0; k < 4; k++) {
+        if (mesh_.neighbours[std::size_t(t)][k] >= 0) continue;
+        const Triangle face = sorted_face(mesh_.tets[std::size_t(t)], int(k));
+        const auto at = [&](std::size_t i) { return mesh_.points[std::size_t(face[i])]; };
+        const Vec3 w = nearest_in_triangle(probe.point, at(0), at(1), at(2));
+        const double distance2 = length2(w.x * at(0) + w.y * at(1) + w.z * at(2) - probe.point);
+        if (distance2 >= nearest2) continue;
+        nearest2 = distance2;
+        const double weights[4] = {w.x, w.y, w.z, 0};
+        error = largest_part(mesh_, mesh_.residual({face[0], face[1], face[2], face[0]}, weights, probe));
+      }
+    return error;
   }
 
   /// The original's there. Once a vertex has been given its values it is not given others.
@@ -128,7 +161,8 @@ class LargestErrors {
   AdaptiveMesh<m> &mesh_;
   Array<std::int32_t> around_;
   Array<std::int32_t> left_;
-  ValueRange<m> range_;  // of all probes
+  Array<std::pair<std::int32_t, std::int32_t>> beneath_;  // probes on the boundary, and the inner vertices for them
+  ValueRange<m> range_;                                   // of all probes
 };
 
 }  // namespace

@@ -238,11 +238,13 @@ void project(Job &job, Array<std::int32_t> &home, AdaptiveMesh<m> &mesh) {
         tet_of_face.push_back(std::int32_t(t));
       }
   const NearestTriangle boundary(mesh.points, faces, 8, job);
+  mesh.outside.assign(mesh.vertex_probes, 0);
   job.parallel.for_blocks(mesh.vertex_probes, block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; i++) {
       const NearestPoint at = nearest_if_outside(mesh, home[i], mesh.probes[i].point, boundary);
       if (at.triangle < 0) continue;
       home[i] = tet_of_face[std::size_t(at.triangle)];
+      mesh.outside[i] = 1;
       mesh.probes[i].point = Vec3(0);
       for (int k = 0; k < 3; k++)
         mesh.probes[i].point +=
@@ -345,6 +347,7 @@ template <std::size_t m>
 std::int64_t place_probes(const MeshView &original, const ProbeOptions &options, Job &job, AdaptiveMesh<m> &mesh) {
   mesh.probes.clear();
   mesh.vertex_of_probe.clear();
+  mesh.outside.clear();
   mesh.probes.reserve(expected_probes(original, options));
   add_vertices(original, options.most_vertices, mesh);
   mesh.vertex_probes = mesh.probes.size();
@@ -352,7 +355,9 @@ std::int64_t place_probes(const MeshView &original, const ProbeOptions &options,
   Array<std::int32_t> home = find_homes(job, mesh);
   const auto outside = std::count(home.begin(), home.begin() + std::ptrdiff_t(mesh.vertex_probes), -1);
   if (options.project_outside) project(job, home, mesh);
-  put_in_places(sort_by_home(0, mesh.vertex_probes, job, mesh, home), 0, job, mesh.vertex_of_probe);
+  const Array<std::int32_t> places = sort_by_home(0, mesh.vertex_probes, job, mesh, home);
+  put_in_places(places, 0, job, mesh.vertex_of_probe);
+  if (options.project_outside) put_in_places(places, 0, job, mesh.outside);
   sort_by_home(mesh.vertex_probes, home.size(), job, mesh, home);
   mesh.next_probe.assign(home.size(), -1);
   job.poll(0.2);
