@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <utility>
 
 #include "flip_tets.hpp"
 #include "give_way.hpp"
 #include "most_needed.hpp"
+#include "surface_distance.hpp"
 
 namespace tetlod {
 
@@ -64,19 +63,15 @@ std::int32_t corner_at(const TetComplex &mesh, std::int32_t t, const Vec3 &p, do
 template <std::size_t m>
 class LargestErrors {
  public:
-  LargestErrors(Job &job, AdaptiveMesh<m> &mesh)
-      : job_(job), mesh_(mesh), around_(&job.memory), left_(&job.memory), beneath_(&job.memory) {}
+  LargestErrors(Job &job, AdaptiveMesh<m> &mesh) : job_(job), mesh_(mesh), around_(&job.memory), left_(&job.memory) {}
 
   Array<std::int32_t> hold(double bound) {
     for (std::size_t p = 0; p < mesh_.vertex_probes; p++) range_.add(mesh_.probes[p].value);
     for (int sweep = 0;; sweep++) {
       const std::int64_t served = serve_beyond((1 - margin) * bound, sweep < yielding_sweeps);
-      if (served == 0) break;
+      if (served == 0) return std::move(left_);
       if (sweep < flipping_sweeps) flip_tets(mesh_.total_error() / double(mesh_.count()), job_, mesh_);
     }
-    for (const auto &[probe, vertex] : beneath_)
-      if (error_above(vertex, probe) > bound) left_.push_back(mesh_.vertex_of_probe[std::size_t(probe)]);
-    return std::move(left_);
   }
 
   void lower(std::int64_t tets) {
@@ -120,31 +115,9 @@ class LargestErrors {
       if (!insert_vertex(t, probe.point, probe.value, snap, flattest, mesh_)) continue;
       mesh_.kept.back() = held;
       mesh_.star(std::int32_t(mesh_.points.size()) - 1, around_);
-      if (mesh_.is_outside(p) && !mesh_.fixed.back()) beneath_.push_back({p, std::int32_t(mesh_.points.size()) - 1});
       return true;
     }
     return false;
-  }
-
-  /// Of a vertex just beneath the boundary, which serves nobody who looks there from outside: the error of the probe on
-  /// the nearest face above.
-  double error_above(std::int32_t v, std::int32_t p) {
-    const Probe<m> &probe = mesh_.probes[std::size_t(p)];
-    double nearest2 = std::numeric_limits<double>::infinity(), error = 0;
-    mesh_.star(v, around_);
-    for (std::int32_t t : around_)
-      for (std::size_t k = 0; k < 4; k++) {
-        if (mesh_.neighbours[std::size_t(t)][k] >= 0) continue;
-        const Triangle face = sorted_face(mesh_.tets[std::size_t(t)], int(k));
-        const auto at = [&](std::size_t i) { return mesh_.points[std::size_t(face[i])]; };
-        const Vec3 w = nearest_in_triangle(probe.point, at(0), at(1), at(2));
-        const double distance2 = length2(w.x * at(0) + w.y * at(1) + w.z * at(2) - probe.point);
-        if (distance2 >= nearest2) continue;
-        nearest2 = distance2;
-        const double weights[4] = {w.x, w.y, w.z, 0};
-        error = largest_part(mesh_, mesh_.residual({face[0], face[1], face[2], face[0]}, weights, probe));
-      }
-    return error;
   }
 
   /// The original's there. Once a vertex has been given its values it is not given others.
@@ -161,8 +134,7 @@ class LargestErrors {
   AdaptiveMesh<m> &mesh_;
   Array<std::int32_t> around_;
   Array<std::int32_t> left_;
-  Array<std::pair<std::int32_t, std::int32_t>> beneath_;  // probes on the boundary, and the inner vertices for them
-  ValueRange<m> range_;                                   // of all probes
+  ValueRange<m> range_;  // of all probes
 };
 
 }  // namespace
@@ -181,6 +153,25 @@ LargestError largest_error(const AdaptiveMesh<m> &mesh, Job &job) {
 }
 
 template <std::size_t m>
+Array<std::int32_t> beyond_from_outside(const MeshView &original, double bound, Job &job, const AdaptiveMesh<m> &mesh) {
+  Array<Triangle> faces(&job.memory);
+  Array<std::int32_t> beyond(&job.memory), tet_of_face(&job.memory);
+  mesh.find_boundary(faces, tet_of_face);
+  const NearestTriangle boundary(mesh.points, faces, 8, job);
+  for (std::size_t i = 0; i < mesh.outside.size(); i++) {
+    if (i % 256 == 0) job.poll(0.95);
+    if (!mesh.outside[i]) continue;
+    const std::int32_t v = mesh.vertex_of_probe[i];
+    const NearestPoint at = boundary.nearest(original.points[std::size_t(v)]);
+    const Triangle &face = faces[std::size_t(at.triangle)];
+    const double w[4] = {at.weights[0], at.weights[1], at.weights[2], 0};
+    if (largest_part(mesh, mesh.residual({face[0], face[1], face[2], face[0]}, w, mesh.probes[i])) > bound)
+      beyond.push_back(v);
+  }
+  return beyond;
+}
+
+template <std::size_t m>
 Array<std::int32_t> hold_bound(double bound, Job &job, AdaptiveMesh<m> &mesh) {
   return LargestErrors<m>(job, mesh).hold(bound);
 }
@@ -195,12 +186,16 @@ template LargestError largest_error(const AdaptiveMesh<2> &, Job &);
 template LargestError largest_error(const AdaptiveMesh<3> &, Job &);
 template LargestError largest_error(const AdaptiveMesh<4> &, Job &);
 template Array<std::int32_t> hold_bound(double, Job &, AdaptiveMesh<1> &);
+template Array<std::int32_t> beyond_from_outside(const MeshView &, double, Job &, const AdaptiveMesh<1> &);
 template void lower_largest(std::int64_t, Job &, AdaptiveMesh<1> &);
 template Array<std::int32_t> hold_bound(double, Job &, AdaptiveMesh<2> &);
+template Array<std::int32_t> beyond_from_outside(const MeshView &, double, Job &, const AdaptiveMesh<2> &);
 template void lower_largest(std::int64_t, Job &, AdaptiveMesh<2> &);
 template Array<std::int32_t> hold_bound(double, Job &, AdaptiveMesh<3> &);
+template Array<std::int32_t> beyond_from_outside(const MeshView &, double, Job &, const AdaptiveMesh<3> &);
 template void lower_largest(std::int64_t, Job &, AdaptiveMesh<3> &);
 template Array<std::int32_t> hold_bound(double, Job &, AdaptiveMesh<4> &);
+template Array<std::int32_t> beyond_from_outside(const MeshView &, double, Job &, const AdaptiveMesh<4> &);
 template void lower_largest(std::int64_t, Job &, AdaptiveMesh<4> &);
 
 }  // namespace tetlod

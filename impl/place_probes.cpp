@@ -231,12 +231,7 @@ template <std::size_t m>
 void project(Job &job, Array<std::int32_t> &home, AdaptiveMesh<m> &mesh) {
   Array<Triangle> faces(&job.memory);
   Array<std::int32_t> tet_of_face(&job.memory);
-  for (std::size_t t = 0; t < mesh.tets.size(); t++)
-    for (int k = 0; k < 4; k++)
-      if (mesh.alive(std::int32_t(t)) && mesh.neighbours[t][std::size_t(k)] < 0) {
-        faces.push_back(sorted_face(mesh.tets[t], k));
-        tet_of_face.push_back(std::int32_t(t));
-      }
+  mesh.find_boundary(faces, tet_of_face);
   const NearestTriangle boundary(mesh.points, faces, 8, job);
   mesh.outside.assign(mesh.vertex_probes, 0);
   job.parallel.for_blocks(mesh.vertex_probes, block, [&](std::size_t begin, std::size_t end) {

@@ -55,10 +55,13 @@ class Refinement {
     insert(options_.before_lowering - count());
     fit_values(fit_steps, job_, mesh_);
     if (enough.most_vertices < double(original_.points.size())) place_probes(original_, every_vertex(), job_, mesh_);
-    if (options_.bound > 0)
+    if (options_.bound > 0) {
       report_.beyond_bound = hold_bound(options_.bound, job_, mesh_);
-    else
+      if (report_.beyond_bound.empty())
+        report_.beyond_bound = beyond_from_outside(original_, options_.bound, job_, mesh_);
+    } else {
       use_up_tets();
+    }
     report_.max_error = largest_error(mesh_, job_).value;
     count_points();
     write();

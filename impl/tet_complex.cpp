@@ -130,4 +130,13 @@ void TetComplex::tets_with(std::int32_t t, const std::int32_t *simplex, std::siz
   });
 }
 
+void TetComplex::find_boundary(Array<Triangle> &faces, Array<std::int32_t> &tet_of_face) const {
+  for (std::size_t t = 0; t < tets.size(); t++)
+    for (int k = 0; k < 4; k++)
+      if (alive(std::int32_t(t)) && neighbours[t][std::size_t(k)] < 0) {
+        faces.push_back(sorted_face(tets[t], k));
+        tet_of_face.push_back(std::int32_t(t));
+      }
+}
+
 }  // namespace tetlod

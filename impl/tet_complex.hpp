@@ -41,6 +41,9 @@ class TetComplex {
   /// Finds the neighbours of `tets`, which has no free slot yet.
   void connect(Job &job);
 
+  /// The faces of the boundary, the vertices of each ascending, and the tet that each has.
+  void find_boundary(Array<Triangle> &faces, Array<std::int32_t> &tet_of_face) const;
+
   std::size_t count() const { return tets.size() - free_.size(); }
   bool alive(std::int32_t t) const { return tets[std::size_t(t)][0] >= 0; }
   Memory &memory() const { return memory_; }

@@ -1,0 +1,142 @@
+// A bound holds for original vertices just outside of the result, too: at the nearest point of its boundary.
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "fixtures.hpp"
+
+namespace tetlod_test {
+namespace {
+
+using Point = std::array<double, 3>;
+
+Point minus(const Point &a, const Point &b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+double dot(const Point &a, const Point &b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+double det(const Point &a, const Point &b, const Point &c) {
+  return a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
+}
+
+struct Nearest {
+  double distance2 = std::numeric_limits<double>::infinity(), value = 0;
+};
+
+/// The nearest point of a triangle with values at its corners: of its plane, if that is inside, else of an edge.
+Nearest nearest_in(const Point corners[3], const double values[3], const Point &p) {
+  const Point u = minus(corners[1], corners[0]), v = minus(corners[2], corners[0]), x = minus(p, corners[0]);
+  const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), xu = dot(x, u), xv = dot(x, v);
+  const double area2 = uu * vv - uv * uv, b = (vv * xu - uv * xv) / area2, c = (uu * xv - uv * xu) / area2;
+  Nearest nearest;
+  const auto look_at = [&](double w0, double w1, double w2) {
+    Point q;
+    for (std::size_t k = 0; k < 3; k++) q[k] = w0 * corners[0][k] + w1 * corners[1][k] + w2 * corners[2][k] - p[k];
+    if (dot(q, q) < nearest.distance2) nearest = {dot(q, q), w0 * values[0] + w1 * values[1] + w2 * values[2]};
+  };
+  if (b >= 0 && c >= 0 && b + c <= 1) {
+    look_at(1 - b - c, b, c);
+    return nearest;
+  }
+  for (std::size_t i = 0; i < 3; i++) {
+    const std::size_t j = (i + 1) % 3;
+    const Point e = minus(corners[j], corners[i]);
+    const double t = std::min(1.0, std::max(0.0, dot(minus(p, corners[i]), e) / dot(e, e)));
+    double w[3] = {0, 0, 0};
+    w[i] = 1 - t;
+    w[j] = t;
+    look_at(w[0], w[1], w[2]);
+  }
+  return nearest;
+}
+
+/// The last result of a context.
+struct LastResult {
+  std::vector<Point> points;
+  std::vector<double> values;
+  std::vector<std::array<std::int32_t, 4>> tets;
+  std::vector<std::array<std::int32_t, 3>> boundary;
+
+  explicit LastResult(const tetlod_context *context) {
+    tetlod_run_report report{};
+    report.struct_size = sizeof report;
+    EXPECT_EQ(tetlod_fetch_report(context, &report), TETLOD_OK);
+    points.resize(std::size_t(report.points_out));
+    values.resize(points.size());
+    tets.resize(std::size_t(report.tets_out));
+    boundary.resize(std::size_t(report.boundary_triangles_out));
+    tetlod_array array = array_of(TETLOD_FLOAT64, points.size(), 3, points.data());
+    EXPECT_EQ(tetlod_fetch_points(context, &array), TETLOD_OK);
+    array = array_of(TETLOD_FLOAT64, values.size(), 1, values.data());
+    EXPECT_EQ(tetlod_fetch_scalars(context, &array), TETLOD_OK);
+    array = array_of(TETLOD_INT32, tets.size(), 4, tets.data());
+    EXPECT_EQ(tetlod_fetch_tets(context, 0, &array), TETLOD_OK);
+    array = array_of(TETLOD_INT32, boundary.size(), 3, boundary.data());
+    EXPECT_EQ(tetlod_fetch_boundary(context, 0, &array), TETLOD_OK);
+  }
+
+  bool is_outside(const Point &p) const {
+    constexpr double tolerance = 1e-6;
+    return std::none_of(tets.begin(), tets.end(), [&](const auto &tet) {
+      Point d[4];
+      for (std::size_t k = 0; k < 4; k++) d[k] = minus(points[std::size_t(tet[k])], p);
+      const double part[4] = {-det(d[1], d[2], d[3]), det(d[0], d[2], d[3]), -det(d[0], d[1], d[3]),
+                              det(d[0], d[1], d[2])};
+      const double whole = part[0] + part[1] + part[2] + part[3];
+      return *std::min_element(part, part + 4) / std::abs(whole) >= -tolerance || whole == 0 ||
+             (whole < 0 && *std::max_element(part, part + 4) / std::abs(whole) <= tolerance);
+    });
+  }
+
+  double value_on_boundary(const Point &p) const {
+    Nearest nearest;
+    for (const auto &triangle : boundary) {
+      Point corners[3];
+      double at[3];
+      for (std::size_t k = 0; k < 3; k++) {
+        corners[k] = points[std::size_t(triangle[k])];
+        at[k] = values[std::size_t(triangle[k])];
+      }
+      if (const Nearest here = nearest_in(corners, at, p); here.distance2 < nearest.distance2) nearest = here;
+    }
+    return nearest.value;
+  }
+};
+
+/// Graded, or a thin sheet askew, and somewhere else: a vertex inserted for a point outside may come to lie just
+/// beneath the boundary.
+void expect_bound_from_outside(int n, const std::function<Point(const Point &)> &moved) {
+  constexpr double bound = 0.001;
+  Cube cube(n);
+  std::vector<Point> points(cube.values.size());
+  for (std::size_t v = 0; v < points.size(); v++) {
+    const Point p{cube.xyz[3 * v], cube.xyz[3 * v + 1], cube.xyz[3 * v + 2]};
+    cube.values[v] = std::tanh(6 * (p[0] - 0.5 + 0.3 * std::sin(6 * p[1]))) + 0.3 * std::cos(5 * p[2]);
+    points[v] = moved(p);
+    std::copy(points[v].begin(), points[v].end(), &cube.xyz[3 * v]);
+  }
+  const Context context = make_context();
+  submit(context.get(), cube);
+  tetlod_set_real(context.get(), TETLOD_OPT_TARGET_RATIO, 0.02);
+  tetlod_set_real(context.get(), TETLOD_OPT_MAX_ERROR, bound);
+  ASSERT_EQ(tetlod_run(context.get()), TETLOD_OK) << message_of(context.get());
+  const LastResult result(context.get());
+  const auto [low, high] = std::minmax_element(cube.values.begin(), cube.values.end());
+  int outside = 0;
+  for (std::size_t v = 0; v < points.size(); v++) {
+    if (!result.is_outside(points[v])) continue;
+    outside++;
+    EXPECT_LE(std::abs(result.value_on_boundary(points[v]) - cube.values[v]), bound * (*high - *low)) << v;
+  }
+  EXPECT_GT(outside, 0);
+}
+
+TEST(Outside, ABoundHoldsAtTheNearestPointOfTheBoundary) {
+  expect_bound_from_outside(10, [](const Point &p) { return Point{1000 + p[0] * p[0], 1000 + p[1], 1000 + p[2]}; });
+  for (int n : {7, 10})
+    expect_bound_from_outside(n, [n](const Point &p) {
+      const double x = n == 7 ? 0.02 * (p[0] * p[0] * p[0]) : 0.1 * p[0], y = 0.2 * p[1];
+      const double u = 0.8 * x - 0.6 * y, v = 0.6 * x + 0.8 * y;
+      return Point{1000 + u, 1000 + 0.8 * v - 0.6 * p[2], 1000 + 0.6 * v + 0.8 * p[2]};
+    });
+}
+
+}  // namespace
+}  // namespace tetlod_test
