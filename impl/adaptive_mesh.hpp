@@ -62,8 +62,6 @@ class AdaptiveMesh : public TetComplex {
     return sum;
   }
 
-  bool is_outside(std::int32_t probe) const { return !outside.empty() && outside[std::size_t(probe)]; }
-
   template <class Visit>
   void for_probes(std::int32_t t, const Visit &visit) const {
     for (std::int32_t p = first_probe[std::size_t(t)]; p >= 0; p = next_probe[std::size_t(p)]) visit(p);
