@@ -4,12 +4,6 @@
 
 namespace tetlod {
 
-namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-}  // namespace
-
 template <std::size_t m>
 void AdaptiveMesh<m>::connect(Job &job) {
   TetComplex::connect(job);
@@ -25,7 +19,8 @@ void AdaptiveMesh<m>::measure(std::int32_t t) {
     f.weights(probes[std::size_t(p)].point, w);
     sum += square(residual(tets[std::size_t(t)], w, probes[std::size_t(p)]));
   });
-  error[std::size_t(t)] = sum >= 0 ? sum : infinity;  // differences of the largest doubles may be no numbers
+  // Differences of the largest doubles may be no numbers, which have no order.
+  error[std::size_t(t)] = sum >= 0 ? sum : std::numeric_limits<double>::infinity();
 }
 
 template <std::size_t m>

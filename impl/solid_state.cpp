@@ -60,12 +60,14 @@ void SolidHistory::begin(const MeshView &original, bool holds_bound, bool keeps_
   holds_bound_ = holds_bound;
 }
 
+void SolidHistory::forget(Memory &memory) {
+  states_ = Array<SolidState<1>>(&memory);
+  set_usual_cost(0, 0);
+}
+
 void SolidHistory::forget_earlier(Memory &memory) {
-  const Fingerprint now = now_;
-  const bool bound = holds_bound_;
   forget(memory);
-  holds_bound_ = bound;
-  values_ = now_ = now;
+  values_ = now_;
 }
 
 double SolidHistory::usual_cost(std::int64_t tets) const {

@@ -65,7 +65,7 @@ class SolidHistory {
   void begin(const MeshView &original, bool holds_bound, bool keeps_earlier, Job &job);
   bool is_earlier() const { return !(now_ == values_); }
   void forget_earlier(Memory &memory);
-  void forget(Memory &memory) { *this = SolidHistory(memory); }
+  void forget(Memory &memory);
 
   /// What collapses to so many tets cost in all, about, as they did for the values of the states.
   double usual_cost(std::int64_t tets) const;

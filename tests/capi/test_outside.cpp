@@ -77,11 +77,10 @@ struct LastResult {
     return std::none_of(tets.begin(), tets.end(), [&](const auto &tet) {
       Point d[4];
       for (std::size_t k = 0; k < 4; k++) d[k] = minus(points[std::size_t(tet[k])], p);
-      const double part[4] = {-det(d[1], d[2], d[3]), det(d[0], d[2], d[3]), -det(d[0], d[1], d[3]),
-                              det(d[0], d[1], d[2])};
+      const double part[4] = {det(d[1], d[2], d[3]), -det(d[0], d[2], d[3]), det(d[0], d[1], d[3]),
+                              -det(d[0], d[1], d[2])};
       const double whole = part[0] + part[1] + part[2] + part[3];
-      return *std::min_element(part, part + 4) / std::abs(whole) >= -tolerance || whole == 0 ||
-             (whole < 0 && *std::max_element(part, part + 4) / std::abs(whole) <= tolerance);
+      return std::all_of(part, part + 4, [&](double of_corner) { return of_corner / whole >= -tolerance; });
     });
   }
 
