@@ -389,9 +389,9 @@ enum {
 };
 /* Flags of points, any sum of the above: 1 component, uint8, as many as points; 0: simplify freely. A flagged vertex of
  * the boundary is never collapsed or moved, nor are edges between two such (today also with KEEP alone), and fewer
- * edges than sigma asks for may go; a flagged vertex inside is always a sample, however near the boundary. An inner one
- * is lost, though, when it lies outside of the decimated boundary or TetGen finds no mesh with it. Of points that are
- * merged all flags count. tetlod_run returns TETLOD_ERR_ARGUMENT for other bits and for another count. */
+ * edges than sigma asks for may go; a flagged vertex inside is always a sample, however near the boundary, which is
+ * decimated less where it would cut it off. Of points that are merged all flags count. tetlod_run returns
+ * TETLOD_ERR_ARGUMENT for other bits and for another count, TETLOD_ERR_REMESH when TetGen finds no mesh with all. */
 TETLOD_API tetlod_status tetlod_submit_point_flags(tetlod_context *context, const tetlod_array *flags);
 /* Forgets what was submitted (the arrays may go), keeps options and the last result. */
 TETLOD_API tetlod_status tetlod_clear(tetlod_context *context);

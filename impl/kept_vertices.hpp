@@ -3,6 +3,7 @@
 #pragma once
 #include "job.hpp"
 #include "mesh.hpp"
+#include "status.hpp"
 #include "tet_complex.hpp"
 
 namespace tetlod {
@@ -20,6 +21,19 @@ class KeptVertices {
   int restorations() const { return restorations_; }
   Span<const std::uint8_t> by_host() const { return flags_; }
   Span<const std::uint8_t> restored() const { return restored_; }
+
+  /// Throws Status::remesh when the host flags one that was selected and is not left. left: -1: none.
+  void refuse_lost(Span<const std::int32_t> selected, Span<const std::int32_t> left, std::int32_t index_base,
+                   Memory &memory) const {
+    if (flags_.empty()) return;
+    Array<std::uint8_t> lost(flags_, &memory);
+    for (std::int32_t v : left)
+      if (v >= 0) lost[std::size_t(v)] = 0;
+    for (std::int32_t v : selected)
+      if (lost[std::size_t(v)])
+        fail(Status::remesh, "vertex %lld is to be kept, and none of the simplified solid",
+             (long long)v + index_base);
+  }
 
   /// Of points that are these original vertices, or, -1, none.
   Array<std::uint8_t> flags_of(Span<const std::int32_t> origin, Memory &memory) const {

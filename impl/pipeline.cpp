@@ -213,11 +213,13 @@ class Pipeline {
     return std::move(refined.beyond_bound);
   }
 
-  /// False: TetGen finds no way.
+  /// False: TetGen finds no way with all that is to be kept.
   bool fill(Worker &worker) {
     cull();
     try {
       remesh(worker);
+      const Array<std::int32_t> left = original_vertices({surface_, samples_, remeshed_}, job_.memory);
+      kept_.refuse_lost(selected_, left, original_.index_base, job_.memory);
       return true;
     } catch (const Error &error) {
       if (error.status() != Status::remesh) throw;

@@ -20,7 +20,6 @@ void take_known_values(const MeshView &original, const Surface &surface, Span<co
   }
 }
 
-/// -1 where decimation or TetGen placed it.
 std::int32_t original_vertex(const Surface &surface, Span<const std::int32_t> samples, std::int32_t origin) {
   const auto boundary = std::int32_t(surface.points.size());
   if (origin < 0) return -1;
@@ -28,6 +27,14 @@ std::int32_t original_vertex(const Surface &surface, Span<const std::int32_t> sa
 }
 
 }  // namespace
+
+Array<std::int32_t> original_vertices(const Remeshed &remeshed, Memory &memory) {
+  Array<std::int32_t> origin(&memory);
+  origin.reserve(remeshed.result.origin.size());
+  for (std::int32_t of : remeshed.result.origin)
+    origin.push_back(original_vertex(remeshed.surface, remeshed.samples, of));
+  return origin;
+}
 
 void reconstruct_field(const MeshView &original, const Boundary &boundary, const Remeshed &remeshed, std::int64_t leaf,
                        Job &job, TetMesh &mesh, Array<std::int32_t> &origin) {
@@ -40,8 +47,7 @@ void reconstruct_field(const MeshView &original, const Boundary &boundary, const
   const Span<const Vec3> steiner{result.points.data() + known, result.points.size() - known};
   interpolate(original, boundary.triangles, steiner, leaf, job, values);
   mesh.scalars.insert(mesh.scalars.end(), values.begin(), values.end());
-  origin.clear();
-  for (std::int32_t of : result.origin) origin.push_back(original_vertex(surface, samples, of));
+  origin = original_vertices(remeshed, job.memory);
   mesh.points = std::move(result.points);
   mesh.tets = std::move(result.tets);
   mesh.boundary = std::move(surface.triangles);

@@ -14,8 +14,10 @@ struct Remeshed {
   RemeshResult &result;              ///< taken
 };
 
-/// At most `leaf` tets go down the tree of the Steiner points together. origin: of each point, the original vertex that
-/// it is, or -1.
+/// Of each point the original vertex that it is; -1 where decimation or TetGen placed it.
+Array<std::int32_t> original_vertices(const Remeshed &remeshed, Memory &memory);
+
+/// At most `leaf` tets go down the tree of the Steiner points together. origin: the original_vertices.
 void reconstruct_field(const MeshView &original, const Boundary &boundary, const Remeshed &remeshed, std::int64_t leaf,
                        Job &job, TetMesh &mesh, Array<std::int32_t> &origin);
 

@@ -113,6 +113,28 @@ TEST_F(Flags, KeptVerticesAreThereInsideAndOnTheBoundary) {
   expect_all_flagged_there();
 }
 
+double from_middle(const Point &p) { return std::hypot(p[0] - 0.5, p[1] - 0.5, p[2] - 0.5); }
+
+/// A ball whose boundary is decimated loses what is just beneath it.
+TEST_F(Flags, KeptVerticesAreThereWhereTheBoundaryWouldCutThemOff) {
+  cube = Cube(10);
+  for (std::size_t v = 0; v < cube.values.size(); v++) {
+    const Point p = point(v);
+    const double on_cube = std::max({std::abs(p[0] - 0.5), std::abs(p[1] - 0.5), std::abs(p[2] - 0.5)});
+    const double scale = on_cube > 0 ? std::cbrt(on_cube / 4) / from_middle(p) : 1;
+    for (std::size_t k = 0; k < 3; k++) cube.xyz[3 * v + k] = 0.5 + scale * (p[k] - 0.5);
+  }
+  submit(context.get(), cube);
+  tetlod_set_sigma(context.get(), 0.02);
+  flag(TETLOD_FLAG_KEEP, [&](const Point &p) { return from_middle(p) > 0.46 && from_middle(p) < 0.49; });
+  run();
+  expect_all_flagged_there();
+  tetlod_run_report report{};
+  report.struct_size = sizeof report;
+  ASSERT_EQ(tetlod_fetch_report(context.get(), &report), TETLOD_OK);
+  EXPECT_LT(report.boundary_edges_out, report.boundary_edges_in) << "it is decimated, still";
+}
+
 TEST_F(Flags, CleaningLeavesThem) {
   flag(TETLOD_FLAG_LOCK, [](const Point &p) { return p[0] == 1; });
   tetlod_set_real(context.get(), TETLOD_OPT_CLEAN_EDGES, 0.1);
