@@ -48,9 +48,9 @@ double winding_on(const Surface &surface, std::int32_t triangle) {
 }  // namespace
 
 std::pair<std::int32_t, std::int32_t> find_crossing(const Surface &surface, Job &job) {
-  Array<Box> boxes(surface.triangles.size(), &job.memory);
-  for (std::size_t t = 0; t < boxes.size(); t++)
-    for (const Vec3 &p : corners(surface, std::int32_t(t))) boxes[t].add(p);
+  Array<Box> boxes(&job.memory);
+  boxes.reserve(surface.triangles.size());
+  for (const Triangle &t : surface.triangles) boxes.push_back(box_of(surface.points, t));
   KdTree tree(job.memory);
   tree.build(Array<Box>(boxes, &job.memory), 4, job, 1);
   Array<std::int32_t> partner(boxes.size(), -1, &job.memory);

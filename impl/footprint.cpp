@@ -9,6 +9,7 @@
 #include "geometry.hpp"
 #include "place_probes.hpp"
 #include "surface_distance.hpp"
+#include "whole_arrays.hpp"
 
 namespace tetlod {
 
@@ -128,11 +129,9 @@ double share_away(Span<const Vec3> points, Span<const Triangle> boundary, Span<c
 }
 
 /// Coordinates of others may be no numbers.
-Array<std::int32_t> used_vertices(const MeshView &mesh, Memory &memory) {
-  Array<std::uint8_t> used(mesh.points.size(), 0, &memory);
-  for (const Tet &tet : mesh.tets)
-    for (std::int32_t v : tet) used[std::size_t(v)] = 1;
-  Array<std::int32_t> vertices(&memory);
+Array<std::int32_t> used_vertices(const MeshView &mesh, Job &job) {
+  const Array<std::uint8_t> used = find_used(mesh.tets, mesh.points.size(), job);
+  Array<std::int32_t> vertices(&job.memory);
   vertices.reserve(used.size());
   for (std::size_t v = 0; v < used.size(); v++)
     if (used[v]) vertices.push_back(std::int32_t(v));
@@ -143,7 +142,7 @@ Array<std::int32_t> used_vertices(const MeshView &mesh, Memory &memory) {
 /// divided until in none the values are off by more than `bound` from a linear function. 0: there is no bound.
 double tets_for_bound(const MeshView &mesh, double bound, Job &job) {
   if (!(bound > 0)) return 0;
-  Array<std::int32_t> vertices = used_vertices(mesh, job.memory);
+  Array<std::int32_t> vertices = used_vertices(mesh, job);
   const std::size_t parts = count_linear_parts(mesh, {vertices.data(), vertices.size()}, bound, job);
   return std::min(tets_a_part * double(parts), double(mesh.tets.size()));
 }

@@ -12,12 +12,6 @@ namespace {
 constexpr double rounding = 1e-6;
 constexpr std::size_t tets_in_block = 1 << 12, points_in_block = 1 << 8;
 
-Box box_of(const MeshView &mesh, const Tet &t) {
-  Box box;
-  for (std::int32_t v : t) box.add(mesh.points[std::size_t(v)]);
-  return box;
-}
-
 Box box_at(const Vec3 &p) { return {p, p}; }
 
 /// Barycentric weights of p in a tet; false for a tet without volume, unless p is its vertex.
@@ -102,7 +96,7 @@ Array<std::int32_t> find_tets(const MeshView &mesh, Span<const Vec3> points, std
   job.parallel.for_blocks(mesh.tets.size(), tets_in_block, [&](std::size_t begin, std::size_t end) {
     Array<Box> boxes(&job.memory);
     boxes.reserve(end - begin);
-    for (std::size_t t = begin; t < end; t++) boxes.push_back(box_of(mesh, mesh.tets[t]));
+    for (std::size_t t = begin; t < end; t++) boxes.push_back(box_of(mesh.points, mesh.tets[t]));
     for (std::size_t k = 0; k < boxes.size(); k += run)
       tree.find(begin + k, {boxes.data() + k, std::min(run, boxes.size() - k)}, hits[begin / tets_in_block]);
     job.poll(0.5 * double(end) / double(mesh.tets.size()));

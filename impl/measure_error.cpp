@@ -5,6 +5,7 @@
 #include "geometry.hpp"
 #include "kd_tree.hpp"
 #include "prepare.hpp"
+#include "whole_arrays.hpp"
 
 namespace tetlod {
 
@@ -20,7 +21,7 @@ class Field {
   Field(const TetMesh &mesh, Job &job) : mesh_(mesh), tree_(job.memory) {
     Array<Box> boxes(mesh.tets.size(), &job.memory);
     for (std::size_t t = 0; t < boxes.size(); t++) {
-      for (std::int32_t v : mesh.tets[t]) boxes[t].add(mesh.points[std::size_t(v)]);
+      boxes[t] = box_of<4>(mesh.points, mesh.tets[t]);
       const Vec3 margin = tolerance * (boxes[t].high - boxes[t].low);
       boxes[t].low -= margin;
       boxes[t].high += margin;
@@ -134,9 +135,7 @@ FieldError measure_error(const MeshView &original, double range, const TetMesh &
                          std::uint64_t seed, Job &job) {
   const Field field(result, job);
   const double unit = range > 0 ? std::min(range, std::numeric_limits<double>::max()) : 1;
-  Array<std::uint8_t> used(original.points.size(), 0, &job.memory);
-  for (const Tet &t : original.tets)
-    for (std::int32_t v : t) used[std::size_t(v)] = 1;
+  const Array<std::uint8_t> used = find_used(original.tets, original.points.size(), job);
   const Tally at_vertices = tally_blocks(original.points.size(), job, 0, [&](std::size_t v, Tally &tally) {
     if (used[v]) tally.add(field, original.points[v], original.scalars[v * original.fields], unit);
   });

@@ -54,6 +54,10 @@ struct MeshView {
   }
 };
 
+inline bool has_repeated_vertex(const Tet &t) {
+  return t[0] == t[1] || t[0] == t[2] || t[0] == t[3] || t[1] == t[2] || t[1] == t[3] || t[2] == t[3];
+}
+
 /// The corners of the face opposite corner k, seen counter-clockwise from outside a tet with
 /// det(p1 - p0, p2 - p0, p3 - p0) > 0.
 constexpr int tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};

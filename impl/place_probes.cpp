@@ -52,10 +52,8 @@ double change_of(const MeshView &mesh, const Tet &t) {
 std::size_t taken(double due) { return std::size_t(0.5 + due); }
 
 template <std::size_t m>
-void add_vertices(const MeshView &original, double most, AdaptiveMesh<m> &mesh) {
-  Array<std::uint8_t> used(original.points.size(), 0, &mesh.memory());
-  for (const Tet &t : original.tets)
-    for (std::int32_t v : t) used[std::size_t(v)] = 1;
+void add_vertices(const MeshView &original, double most, Job &job, AdaptiveMesh<m> &mesh) {
+  const Array<std::uint8_t> used = find_used(original.tets, original.points.size(), job);
   const double share = std::min(1.0, most / double(std::count(used.begin(), used.end(), 1)));
   const Span<const Values<m>> values = original.values<m>();
   mesh.vertex_of_probe.reserve(std::size_t(std::min(most, double(used.size()))));
@@ -170,8 +168,7 @@ class Locator {
 
   void add(std::int32_t t, Box &box) {
     frames_[std::size_t(t)] = mesh_.frame(t);
-    Box own;
-    for (int k = 0; k < 4; k++) own.add(mesh_.corner(t, k));
+    const Box own = box_of<4>(mesh_.points, mesh_.tets[std::size_t(t)]);
     const Vec3 margin = tolerance * (own.high - own.low);
     box.add(own.low - margin);
     box.add(own.high + margin);
@@ -344,7 +341,7 @@ std::int64_t place_probes(const MeshView &original, const ProbeOptions &options,
   mesh.vertex_of_probe.clear();
   mesh.outside.clear();
   mesh.probes.reserve(expected_probes(original, options));
-  add_vertices(original, options.most_vertices, mesh);
+  add_vertices(original, options.most_vertices, job, mesh);
   mesh.vertex_probes = mesh.probes.size();
   if (options.most_inner > 0) add_inner(original, options.most_inner, job, mesh.probes);
   Array<std::int32_t> home = find_homes(job, mesh);

@@ -6,6 +6,7 @@
 #include "geometry.hpp"
 #include "merge_points.hpp"
 #include "status.hpp"
+#include "whole_arrays.hpp"
 
 namespace tetlod {
 
@@ -153,19 +154,6 @@ Span<const Tet> read_tets(const Input &input, Job &job, Array<Tet> &copy) {
   return copy;
 }
 
-bool has_repeated_vertex(const Tet &t) {
-  return t[0] == t[1] || t[0] == t[2] || t[0] == t[3] || t[1] == t[2] || t[1] == t[3] || t[2] == t[3];
-}
-
-Array<std::uint8_t> find_used(Span<const Tet> tets, std::size_t points, Job &job) {
-  Array<std::uint8_t> used(points, 0, &job.memory);
-  for (std::size_t t = 0; t < tets.size(); t++) {
-    if (t % block == 0) job.poll(0.5);
-    for (std::int32_t v : tets[t]) used[std::size_t(v)] = 1;
-  }
-  return used;
-}
-
 [[noreturn]] void refuse_value(const Input &input, const MeshView &mesh, std::size_t v, std::size_t field) {
   const std::string of_field = field > 0 ? "of field " + input.steering[field - 1].name.substr(0, 100) + " " : "";
   fail(Status::mesh_nonfinite, "the value %sof vertex %zu is %s", of_field.c_str(), v + std::size_t(input.index_base),
@@ -174,10 +162,12 @@ Array<std::uint8_t> find_used(Span<const Tet> tets, std::size_t points, Job &job
 
 /// Looks at the coordinates and values of the points that tets use. Points without a finite value are marked as not
 /// used, or refused.
-void check_used_points(const Input &input, const Options &options, Original &original, Array<std::uint8_t> &used) {
+void check_used_points(const Input &input, const Options &options, Job &job, Original &original,
+                       Array<std::uint8_t> &used) {
   const MeshView &mesh = original.view;
   Ranges ranges;
   for (std::size_t v = 0; v < used.size(); v++) {
+    if (v % block == 0) job.poll(0.5);
     if (!used[v]) continue;
     for (int k = 0; k < 3; k++)
       if (!std::isfinite(mesh.points[v][k]))
@@ -203,6 +193,7 @@ void drop_and_rename(Span<const std::int32_t> representative, Span<const std::ui
   kept.reserve(original.view.tets.size());
   original.tet_number.reserve(original.view.tets.size());
   for (std::size_t i = 0; i < original.view.tets.size(); i++) {
+    if (i % block == 0) job.poll(0.9);
     const Tet &t = original.view.tets[i];
     if (std::any_of(t.begin(), t.end(), [&](std::int32_t v) { return !used[std::size_t(v)]; })) continue;
     Tet renamed = t;
@@ -221,18 +212,18 @@ void scale_extreme_coordinates(Job &job, Original &original) {
   if (exponent == 0) return;
   original.exponent = exponent;
   const auto scaled = [&](const Vec3 &p) { return times_power_of_two(p, -exponent); };
-  Array<Vec3> points(&job.memory);
-  points.reserve(original.view.points.size());
-  for (const Vec3 &p : original.view.points) points.push_back(scaled(p));
+  Array<Vec3> points = array_of(original.view.points.size(), Vec3(0), job);
+  for_each(points.size(), job, [&](std::size_t v) { points[v] = scaled(original.view.points[v]); });
   original.points = std::move(points);
   original.view.points = original.points;
   original.box = {scaled(original.box.low), scaled(original.box.high)};
 }
 
-void read_flags(const Input &input, Span<const std::int32_t> representative, Original &original) {
+void read_flags(const Input &input, Span<const std::int32_t> representative, Job &job, Original &original) {
   if (!input.flags.present) return;
   original.flags.assign(representative.size(), 0);
   for (std::size_t v = 0; v < representative.size(); v++) {
+    if (v % block == 0) job.poll(0.9);
     const auto flags = input.flags.at<std::uint8_t>(std::int64_t(v), 0);
     if (flags > (keep_vertex | lock_vertex))
       fail(Status::argument, "the flags of vertex %zu are %d, of which not all have a meaning",
@@ -296,14 +287,14 @@ void prepare_original(const Input &input, const Options &options, Job &job, Orig
   original.view.tets = read_tets(input, job, original.tets);
   Array<std::uint8_t> &used = original.used;
   used = find_used(original.view.tets, original.view.points.size(), job);
-  check_used_points(input, options, original, used);
+  check_used_points(input, options, job, original, used);
   scale_extreme_coordinates(job, original);
 
   Array<std::int32_t> representative(&job.memory);
   const double diagonal = original.box.diagonal();
   original.merged_points =
       merge_points(original.view.points, used, options.merge_tolerance * diagonal, job, representative);
-  read_flags(input, representative, original);
+  read_flags(input, representative, job, original);
   if (original.merged_points || original.nonfinite_points || any_repeated_vertex(original.view.tets, job))
     drop_and_rename(representative, used, job, original);
   if (original.view.tets.empty())
@@ -314,6 +305,7 @@ void prepare_original(const Input &input, const Options &options, Job &job, Orig
 bool renew_values(const Input &input, Job &job, Original &original) {
   if (original.nonfinite_points > 0 || !has_a_value_a_point(input)) return false;
   const auto points = std::size_t(input.xyz[0].tuples), tets = std::size_t(input.tets.tuples);
+  if (original.points.empty() && !interleaved_doubles(input.xyz)) return false;
   if (original.points.empty()) original.view.points = {reinterpret_cast<const Vec3 *>(input.xyz[0].data), points};
   if (original.tets.empty()) original.view.tets = {reinterpret_cast<const Tet *>(input.tets.data), tets};
   read_values(input, job, original);

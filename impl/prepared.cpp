@@ -33,9 +33,10 @@ bool Prepared::holds(const Input &input, const Options &options, Job &job) {
 }
 
 bool Prepared::renew(const Input &input, const Options &options, Job &job) {
-  if (holds(input, options, job)) return true;
+  const Fingerprint stamp = stamp_of(input, options, job);
+  if (filled_ && stamp == stamp_ && renew_values(input, job, original)) return true;
   forget(job.memory);
-  stamp_ = stamp_of(input, options, job);
+  stamp_ = stamp;
   return false;
 }
 

@@ -45,12 +45,6 @@ void check_corners(const Surface &surface) {
   }
 }
 
-Box box_of(const Surface &surface) {
-  Box box;
-  for (const Vec3 &p : surface.points) box.add(p);
-  return box;
-}
-
 void check_extents(const Box &box) {
   for (int k = 0; k < 3; k++)
     if (!(box.low[k] < box.high[k]))
@@ -196,7 +190,7 @@ SurfaceFacts check_surface(const Surface &surface, Job &job) {
   check_finite(surface);
   check_corners(surface);
   SurfaceFacts facts(job.memory);
-  facts.box = box_of(surface);
+  facts.box = box_of(surface.points);
   check_extents(facts.box);
   const Frame frame = uniform_frame(facts.box);
   Array<Vec3> points(surface.points.size(), &job.memory);

@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry.hpp"
+
 namespace tetlod {
 
 namespace {
-
-Vec3 scaled(const Vec3 &p, int exponent) {
-  return {std::ldexp(p.x, exponent), std::ldexp(p.y, exponent), std::ldexp(p.z, exponent)};
-}
 
 int magnitude_of(const Box &box) {
   double largest = 0;
@@ -29,7 +27,7 @@ double without_underflow(double x) { return std::abs(x) < 1e-40 ? 0 : x; }
 
 }  // namespace
 
-Vec3 Frame::unit(const Vec3 &p) const { return scaled(p, -magnitude); }
+Vec3 Frame::unit(const Vec3 &p) const { return times_power_of_two(p, -magnitude); }
 
 Vec3 Frame::into(const Vec3 &p) const {
   const Vec3 q = unit(p) - shift;
@@ -39,7 +37,7 @@ Vec3 Frame::into(const Vec3 &p) const {
 
 Vec3 Frame::back(const Vec3 &q) const {
   const Vec3 p = Vec3{std::ldexp(q.x, zoom[0]), std::ldexp(q.y, zoom[1]), std::ldexp(q.z, zoom[2])} + shift;
-  return scaled(p, magnitude);
+  return times_power_of_two(p, magnitude);
 }
 
 Frame stretched_frame(const Box &box) {

@@ -15,9 +15,9 @@ double angle_between(const Vec3 &a, const Vec3 &b) { return std::atan2(glm::leng
 
 NearestTriangle::NearestTriangle(Span<const Vec3> points, Span<const Triangle> triangles, std::int64_t leaf, Job &job)
     : points_(points), triangles_(triangles), tree_(job.memory) {
-  Array<Box> boxes(triangles.size(), &job.memory);
-  for (std::size_t t = 0; t < triangles.size(); t++)
-    for (std::int32_t v : triangles[t]) boxes[t].add(points[std::size_t(v)]);
+  Array<Box> boxes(&job.memory);
+  boxes.reserve(triangles.size());
+  for (const Triangle &t : triangles) boxes.push_back(box_of(points, t));
   tree_.build(std::move(boxes), leaf, job);
 }
 

@@ -20,7 +20,6 @@ class NearestTriangle {
  public:
   NearestTriangle(Span<const Vec3> points, Span<const Triangle> triangles, std::int64_t leaf, Job &job);
   NearestPoint nearest(const Vec3 &p) const;
-  const Box &box() const { return tree_.box(); }
 
  private:
   Span<const Vec3> points_;
@@ -37,7 +36,6 @@ class SurfaceDistance {
 
   /// Positive inside.
   double signed_distance(const Vec3 &p, NearestPoint &nearest) const;
-  const Box &box() const { return nearest_.box(); }
 
  private:
   Vec3 unit_normal(std::int32_t triangle) const;

@@ -11,6 +11,7 @@
 #include "predicates.hpp"
 #include "prepare.hpp"
 #include "surface_topology.hpp"
+#include "whole_arrays.hpp"
 
 namespace tetlod {
 
@@ -65,9 +66,7 @@ class Inspector {
     const auto count = std::size_t(found_.points);
     points_.resize(count);
     values_.assign(count, 0.0);
-    used_.assign(count, 0);
-    for (const Tet &t : tets_)
-      for (std::int32_t v : t) used_[std::size_t(v)] = 1;
+    used_ = find_used(tets_, count, job_);
     for (std::size_t v = 0; v < count; v++) {
       const std::int64_t name = std::int64_t(v) + base_;
       for (int k = 0; k < 3; k++) points_[v][k] = input_.xyz[std::size_t(k)].real(std::int64_t(v), 0);
@@ -119,8 +118,7 @@ class Inspector {
         if (!used_[std::size_t(v)]) return true;
         v = representative[std::size_t(v)];
       }
-      const bool repeated =
-          t[0] == t[1] || t[0] == t[2] || t[0] == t[3] || t[1] == t[2] || t[1] == t[3] || t[2] == t[3];
+      const bool repeated = has_repeated_vertex(t);
       if (repeated) found_.repeated.add(name);
       return repeated;
     });

@@ -31,6 +31,16 @@ Array<T> array_of(std::size_t size, const T &value, Job &job) {
   return array;
 }
 
+/// Of each point, whether a tet has it.
+inline Array<std::uint8_t> find_used(Span<const Tet> tets, std::size_t points, Job &job) {
+  Array<std::uint8_t> used(points, 0, &job.memory);
+  for (std::size_t t = 0; t < tets.size(); t++) {
+    if (t % stretch == 0) job.poll(0);
+    for (std::int32_t v : tets[t]) used[std::size_t(v)] = 1;
+  }
+  return used;
+}
+
 /// visit(i) for each of `count`.
 template <class Visit>
 void for_each(std::size_t count, Job &job, const Visit &visit) {
