@@ -39,7 +39,8 @@ protocol::Call call_message(const TetgenRequest &request) {
 }  // namespace
 
 WorkerProcess::WorkerProcess(std::string path, std::uint64_t address_space)
-    : path_(std::move(path)),
+    : owner_(::getpid()),
+      path_(std::move(path)),
       address_space_(address_space),
       request_(shared_file("tetlod-request")),
       response_(shared_file("tetlod-response")) {}
@@ -48,9 +49,12 @@ std::array<pollfd, 3> WorkerProcess::events() const {
   return {{{child_->control(), POLLIN, 0}, {child_->output(), POLLIN, 0}, {child_->handle(), POLLIN, 0}}};
 }
 
+bool WorkerProcess::is_ours() const { return owner_ == ::getpid(); }
+
 void WorkerProcess::end() noexcept {
   call_.reset();
   child_.reset();
+  if (is_ours()) empty_files();
 }
 
 template <class Message>
@@ -116,17 +120,15 @@ void WorkerProcess::check_greeting(Answer answer, const protocol::Hello &hello, 
 }
 
 void WorkerProcess::send_request(const Call &call, Job &job) {
-  discard_files();
+  if (!empty_files()) fail(Status::internal, "cannot empty the files shared with the remeshing process");
   write_arrays(request_, call.request, call.patience, job);
   protocol::Call message = call_message(call.request);
   message.number = ++calls_;
   send(message);  // to a worker that has died in between: noticed when receiving
 }
 
-/// Gives the memory back; also before a call, after one that was interrupted.
-void WorkerProcess::discard_files() const {
-  if (::ftruncate(request_.number(), 0) != 0 || ::ftruncate(response_.number(), 0) != 0)
-    fail(Status::internal, "cannot empty the files shared with the remeshing process");
+bool WorkerProcess::empty_files() const noexcept {
+  return ::ftruncate(request_.number(), 0) == 0 && ::ftruncate(response_.number(), 0) == 0;
 }
 
 void WorkerProcess::begin(const TetgenRequest &request, double seconds, Job &job) {
@@ -171,11 +173,12 @@ void WorkerProcess::settle(Answer kind, const protocol::Reply &answer, Job &job,
   if (answer.code != 0) return give_up(answer.code, bounded(answer.text), reply);
   if (const char *lie = read_arrays(response_, answer, call_->patience, job, reply))
     return give_up(worker_lied, std::string("answered with ") + lie, reply);
-  discard_files();
+  empty_files();
 }
 
 void WorkerProcess::give_up(int code, const std::string &failure, TetgenReply &reply) {
   child_.reset();
+  empty_files();
   reply.code = code;
   reply.failure = failure;
 }

@@ -1,6 +1,7 @@
 // One process of tetlod-remesh: started, greeted, called, ended.
 #pragma once
 #include <poll.h>
+#include <sys/types.h>
 
 #include <array>
 #include <cstdint>
@@ -23,7 +24,7 @@ class WorkerProcess {
   WorkerProcess(std::string path, std::uint64_t address_space);
 
   /// False in a process forked from the one that made this.
-  bool is_ours() const { return !child_ || child_->is_ours(); }
+  bool is_ours() const;
   /// From begin() until finish() has an answer.
   bool is_busy() const { return call_.has_value(); }
 
@@ -34,6 +35,7 @@ class WorkerProcess {
   bool finish(Job &job, TetgenReply &reply);
   /// What says that finish() may have something to do.
   std::array<pollfd, 3> events() const;
+  /// The files that are shared with it give their memory back.
   void end() noexcept;
 
  private:
@@ -60,8 +62,9 @@ class WorkerProcess {
   void settle(Answer kind, const protocol::Reply &answer, Job &job, TetgenReply &reply);
   void give_up(int code, const std::string &failure, TetgenReply &reply);
   void give_up_dead(Job &job, TetgenReply &reply);
-  void discard_files() const;
+  bool empty_files() const noexcept;
 
+  pid_t owner_;
   std::string path_;
   std::uint64_t address_space_;
   Descriptor request_, response_;

@@ -2,12 +2,15 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <filesystem>
 #include <functional>
+#include <map>
 #include <thread>
 
 #include "worker_fixture.hpp"
@@ -182,6 +185,41 @@ TEST_F(WorkerTest, ForkedHost) {
   })) << "destroyed unused";
   ASSERT_EQ(children_of(::getpid()).size(), 1u) << "the parent's is alive";
   EXPECT_TRUE(works());
+}
+
+/// Each file in memory that is shared with a worker, by its number among all files, with its bytes.
+std::map<ino_t, off_t> shared_files() {
+  std::map<ino_t, off_t> files;
+  for (const auto &entry : std::filesystem::directory_iterator("/proc/self/fd")) {
+    std::error_code gone;
+    struct stat status;
+    if (std::filesystem::read_symlink(entry, gone).native().rfind("/memfd:tetlod-", 0) == 0 &&
+        ::stat(entry.path().c_str(), &status) == 0)
+      files[status.st_ino] = status.st_size;
+  }
+  return files;
+}
+
+TEST_F(WorkerTest, FilesAreEmptyAfterACallThatFailed) {
+  fake("crashes");
+  call();
+  EXPECT_EQ(reply.code, worker_died);
+  const std::map<ino_t, off_t> files = shared_files();
+  EXPECT_EQ(files.size(), 2u);
+  for (const auto &[file, bytes] : files) EXPECT_EQ(bytes, 0);
+}
+
+/// No process is left whose child the host could not be, but files are.
+TEST_F(WorkerTest, ForkedHostHasFilesOfItsOwnAfterACallThatFailed) {
+  fake("crashes");
+  call();
+  const std::map<ino_t, off_t> parents = shared_files();
+  EXPECT_TRUE(in_a_child([&] {
+    call();
+    const std::map<ino_t, off_t> own = shared_files();
+    return own.size() == 2 &&
+           std::none_of(own.begin(), own.end(), [&](const auto &file) { return parents.count(file.first); });
+  }));
 }
 
 TEST_F(WorkerTest, EndsWithTheThreadThatStartedItOnlyIfTheHostDoes) {
