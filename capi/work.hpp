@@ -17,10 +17,11 @@ void require_submitted(const Input &input);
 Input original_of(const Outcome &outcome, const Input &now);
 
 /// body(), which may use and renew context.prepared. What is kept of earlier runs is the first to go when memory is
-/// short: then it is called again without. After a throw nothing is kept.
+/// short here, not in the remeshing process: then it is called again without. After a throw nothing is kept.
 template <class Body>
 void with_what_is_kept(tetlod_context &context, const Body &body) {
   const bool any_kept = !context.prepared.empty();
+  context.memory.take_shortage();
   const auto call = [&] {
     try {
       body();
@@ -31,9 +32,8 @@ void with_what_is_kept(tetlod_context &context, const Body &body) {
   };
   try {
     return call();
-  } catch (const Error &error) {
-    const bool short_of_memory = error.status() == Status::memory || error.status() == Status::memory_limit;
-    if (!any_kept || !short_of_memory) throw;
+  } catch (const Error &) {
+    if (!any_kept || !context.memory.take_shortage()) throw;
   }
   call();
 }

@@ -28,6 +28,7 @@ void Memory::charge(std::size_t bytes) {
   const std::size_t now = in_use_.fetch_add(bytes, std::memory_order_relaxed) + bytes;
   if (limit_ && now > limit_) {
     discharge(bytes);
+    short_ = true;
     fail(Status::memory_limit, "needs %zu bytes more with %zu in use, the limit is %zu", bytes, now - bytes, limit_);
   }
   std::size_t peak = peak_.load(std::memory_order_relaxed);
@@ -42,6 +43,7 @@ void *Memory::do_allocate(std::size_t bytes, std::size_t alignment) {
   void *pointer = hooks_.allocate(hooks_.user, bytes, alignment);
   if (!pointer) {
     discharge(bytes);
+    short_ = true;
     fail(Status::memory, "no memory for %zu bytes with %zu in use", bytes, in_use());
   }
   return pointer;

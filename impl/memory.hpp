@@ -25,8 +25,9 @@ class Memory final : public std::pmr::memory_resource {
 
   std::size_t in_use() const noexcept { return in_use_.load(std::memory_order_relaxed); }
   std::size_t peak() const noexcept { return peak_.load(std::memory_order_relaxed); }
-  std::size_t limit() const noexcept { return limit_; }
   void reset_peak() noexcept { peak_.store(in_use(), std::memory_order_relaxed); }
+  /// Whether anything was refused since it was asked last.
+  bool take_shortage() noexcept { return short_.exchange(false); }
 
   /// Counts bytes that something else allocates for us (OpenMesh), so that limit and peak see them too.
   void charge(std::size_t bytes);
@@ -41,6 +42,7 @@ class Memory final : public std::pmr::memory_resource {
   std::size_t limit_;
   std::atomic<std::size_t> in_use_{0};
   std::atomic<std::size_t> peak_{0};
+  std::atomic<bool> short_{false};
 };
 
 /// A charge that ends with its scope.
