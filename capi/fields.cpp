@@ -60,7 +60,8 @@ const CarriedField &carried_field(const Result &result, const char *name) {
 const Stencil &stencil_of(tetlod_context &context) {
   Outcome &outcome = last_outcome(context);
   if (outcome.result.stencil.ids.empty()) {
-    const Input original = original_of(outcome, context.input);
+    Input original = original_of(outcome, context.input);
+    original.flags = context.input.flags;  // what is prepared is of a mesh with them
     begin(context);
     Job job(context.memory, context.parallel);
     connect_log(job, context);

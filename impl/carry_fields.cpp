@@ -99,7 +99,9 @@ void find_stencil(const Input &input, const Options &options, Prepared &prepared
   Prepared fresh(job.memory);
   const bool held = prepared.holds(input, options, job);
   if (!held) {
-    prepare_original(input, options, job, fresh.original);
+    Input bare = input;
+    bare.flags = {};  // which change nothing here, and may be wrong
+    prepare_original(bare, options, job, fresh.original);
     extract_boundary(fresh.original.view, job, fresh.boundary, fresh.original.numbers());
   }
   const Prepared &of = held ? prepared : fresh;
