@@ -10,6 +10,9 @@ namespace tetlod {
 
 namespace {
 
+/// Their sides are numbered with 32 bits.
+constexpr std::size_t most_triangles = (std::size_t(1) << 31) / 3 - 1;
+
 int tet_sign(const MeshView &mesh, const Tet &t) {
   return orientation(mesh.points[std::size_t(t[0])], mesh.points[std::size_t(t[1])], mesh.points[std::size_t(t[2])],
                      mesh.points[std::size_t(t[3])]);
@@ -97,9 +100,11 @@ std::int64_t exclude(Span<const std::int32_t> tets, std::size_t count, Array<std
 void find_interior(const MeshView &mesh, Span<const std::uint8_t> excluded, Job &job, Boundary &boundary) {
   enum : std::uint8_t { unused, used, on_boundary };
   Array<std::uint8_t> place(mesh.points.size(), unused, &job.memory);
-  for (std::size_t t = 0; t < mesh.tets.size(); t++)
+  for (std::size_t t = 0; t < mesh.tets.size(); t++) {
+    if (t % 65536 == 0) job.poll(1);
     if (excluded.empty() || !excluded[t])
       for (std::int32_t v : mesh.tets[t]) place[std::size_t(v)] = used;
+  }
   for (const Triangle &t : boundary.triangles)
     for (std::int32_t v : t) place[std::size_t(v)] = on_boundary;
   for (std::size_t v = 0; v < place.size(); v++) {
@@ -124,7 +129,10 @@ void extract_boundary(const MeshView &mesh, Job &job, Boundary &boundary, const 
     boundary.tet_of = std::move(found.tet_of);
     break;
   }
-  if (boundary.triangles.empty()) fail(Status::mesh_degenerate, "none of the %zu tets has a volume", mesh.tets.size());
+  const std::size_t triangles = boundary.triangles.size();
+  if (triangles == 0) fail(Status::mesh_degenerate, "none of the %zu tets has a volume", mesh.tets.size());
+  if (triangles > most_triangles)
+    fail(Status::mesh_too_large, "%zu boundary triangles, the most is %zu", triangles, most_triangles);
   find_interior(mesh, excluded, job, boundary);
 }
 

@@ -19,7 +19,8 @@ struct Boundary {
   std::int64_t duplicate_tets = 0;  ///< tets with the four vertices of an earlier one, left out
 };
 
-/// Throws Status::mesh_nonmanifold for a face with more than two tets, mesh_degenerate when no tet has a volume.
+/// Throws Status::mesh_nonmanifold for a face with more than two tets, mesh_degenerate when no tet has a volume,
+/// mesh_too_large.
 /// numbers: of the mesh's tets.
 void extract_boundary(const MeshView &mesh, Job &job, Boundary &boundary, const HostNumbers &numbers = {});
 
