@@ -12,8 +12,7 @@
 
 namespace tetlod::capi {
 
-/// Size of a public struct up to and with the member that was its last in version 0.1: what a caller's struct has at
-/// least.
+/// Size of a public struct up to and with a member: what a caller's struct has at least.
 #define TETLOD_SIZE_TO(type, member) (offsetof(type, member) + sizeof(type::member))
 
 void require_address(const void *pointer, std::size_t alignment, const char *name);
@@ -47,7 +46,7 @@ struct Shape {
   enum Kind { reals, integers, bytes } kind;
 };
 
-/// An array to read from, with 2^29 tuples at most. Nothing of its contents is looked at.
+/// An array to read from, with less than 2^29 tuples. Nothing of its contents is looked at.
 StridedArray checked_source(const tetlod_array *array, const Shape &shape);
 /// An array to write `tuples` tuples to.
 StridedArray checked_destination(const tetlod_array *array, const Shape &shape, std::size_t tuples);

@@ -64,7 +64,7 @@ tetlod_status tetlod_check(tetlod_context *handle, tetlod_mesh_report *out) {
     const Defects defects = find_defects(input, context.options, job);
     const Error verdict = verdict_on(input, context.options, job);
     copy_struct(report_of(defects, verdict.status()), out);
-    context.message.set(verdict.what());
+    if (verdict.status() != Status::ok) context.message.set(verdict.what());
   });
 }
 

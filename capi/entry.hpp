@@ -1,5 +1,5 @@
 // What stands around every function of the C ABI: the handle is checked, the host's floating-point state is put aside,
-// and every exception ends as a status and a message. The only try and catch of the ABI are in entry.hpp and entry.cpp.
+// and every exception ends as a status and a message.
 #pragma once
 #include <cfenv>
 #include <cstddef>

@@ -27,10 +27,10 @@
  *              the library, in the host's floating-point state, and must not call it with the same context (but for
  *              tetlod_cancel): that is TETLOD_ERR_STATE, and tetlod_destroy is ignored. A C++ exception that leaves
  *              one ends the run with TETLOD_ERR_CANCELLED.
- *   Memory     Submitted arrays are borrowed: they are read during tetlod_run(), tetlod_measure_error(),
- *              tetlod_histogram() and the first tetlod_fetch_stencil() or tetlod_transfer() of a result, never
- *              written, and must live, unchanged in place and shape, until the same slot is submitted again,
- *              tetlod_clear(), or tetlod_destroy(). Only the bytes that an array describes are read or written.
+ *   Memory     Submitted arrays are borrowed: they are read during tetlod_run(), tetlod_check(), calls that estimate,
+ *              measure or count, and the first tetlod_fetch_stencil() or tetlod_transfer() of a result, never written,
+ * and must live, unchanged in place and shape, until the same slot is submitted again, tetlod_clear(), or
+ *              tetlod_destroy(). Only the bytes that an array describes are read or written.
  *   Host       The library never prints, exits, aborts, installs signal handlers, or touches rand(), the locale, the
  *              floating-point state or the environment, and no C++ exception leaves it. TetGen runs in a process of
  *              its own, tetlod-remesh; whatever happens to it is a status here.
@@ -72,7 +72,7 @@ enum {
   TETLOD_ERR_ARGUMENT = 10,    /* null or misaligned pointer, type, shape or stride that makes no sense */
   TETLOD_ERR_OPTION = 11,      /* unknown option, or value out of its bounds */
   TETLOD_ERR_STATE = 12,       /* called in the wrong order: nothing submitted, nothing run, inside a callback */
-  TETLOD_ERR_STRUCT_SIZE = 13, /* struct_size not set, or api_version of another major version */
+  TETLOD_ERR_STRUCT_SIZE = 13, /* struct_size not set, or api_version newer or of another major */
   TETLOD_ERR_BUFFER_SIZE = 14, /* the destination has room for fewer tuples than the result has */
   /* resources */
   TETLOD_ERR_MEMORY = 20,       /* the allocator had no more */
@@ -87,7 +87,7 @@ enum {
   TETLOD_ERR_MESH_NONMANIFOLD = 34,  /* a face with more than two tets */
   TETLOD_ERR_MESH_INTERSECTING = 35, /* the boundary crosses itself, or tets overlap */
   TETLOD_ERR_MESH_PARTITION = 36,    /* reserved for partitioned meshes */
-  TETLOD_ERR_MESH_TOO_LARGE = 37,    /* 2^29 points or tets, or more */
+  TETLOD_ERR_MESH_TOO_LARGE = 37,    /* 2^29 points or tets, or more; 2^31 / 3 boundary triangles */
   /* the remesher */
   TETLOD_ERR_REMESH = 40,          /* TetGen failed on this boundary in every way that was tried */
   TETLOD_ERR_BACKEND_MISSING = 41, /* tetlod-remesh not found, not executable, or of another version */
@@ -161,7 +161,7 @@ typedef struct tetlod_run_report {
       seconds_values, seconds_total;
   uint64_t peak_bytes;           /* of tetlod in the host, the result included, the caller's arrays not */
   uint64_t worker_peak_bytes;    /* of tetlod-remesh; of several processes the sum of each one's */
-  uint64_t hash;                 /* of the result's bytes */
+  uint64_t hash;                 /* of the bytes of points, scalars and tets */
   double scalar_min, scalar_max; /* of the original's values */
   int64_t inserted_points;       /* inside, after the remeshing (TETLOD_OPT_TARGET_RATIO) */
   double max_error;     /* with TETLOD_OPT_TARGET_RATIO or _MAX_ERROR: largest error at the original vertices, over the
@@ -275,9 +275,9 @@ TETLOD_API tetlod_status tetlod_set_lambda(tetlod_context *context, double lambd
 TETLOD_API tetlod_status tetlod_set_min_distance(tetlod_context *context, double fraction);
 
 enum {
-  TETLOD_PRESET_PAPER = 0,   /* as published, sized by rho and sigma: target-ratio 0, lambda 0.1, min-distance 0.01,
-                                leaves of 200 triangles and 500 tets. The default */
-  TETLOD_PRESET_FAST = 1,    /* effort fast, and target-ratio 0.1 where it is 0 */
+  TETLOD_PRESET_PAPER = 0, /* as published, sized by rho and sigma: target-ratio, max-error and max-deviation 0, lambda
+                              0.1, min-distance 0.01, leaves of 200 triangles and 500 tets. The default */
+  TETLOD_PRESET_FAST = 1,  /* effort fast, and target-ratio 0.1 where it is 0 */
   TETLOD_PRESET_ACCURATE = 2 /* effort accurate, likewise */
 };
 /* Sets every option that the preset governs. TETLOD_ERR_OPTION. */
@@ -397,7 +397,7 @@ TETLOD_API tetlod_status tetlod_submit_point_flags(tetlod_context *context, cons
 TETLOD_API tetlod_status tetlod_clear(tetlod_context *context);
 
 /* Counts every class of defect of what is submitted (points and tets; scalars where they are), with the first culprit
- * of each. TETLOD_OK also for a bad mesh: out->status says what tetlod_run would, and tetlod_last_message the reason.
+ * of each. TETLOD_OK also for a bad mesh: out->status says what tetlod_run would, and tetlod_last_message why not OK.
  * TETLOD_ERR_STATE, TETLOD_ERR_STRUCT_SIZE, TETLOD_ERR_MEMORY_LIMIT, TETLOD_ERR_CANCELLED, TETLOD_ERR_TIME_LIMIT. */
 TETLOD_API tetlod_status tetlod_check(tetlod_context *context, tetlod_mesh_report *out);
 /* Estimates tetlod_run_report.peak_bytes of a tetlod_run with what is submitted and the options as they are, within a

@@ -12,8 +12,7 @@ namespace tetlod {
 /// The first pair of triangles that share more than their common vertices; (-1, -1) when there is none.
 std::pair<std::int32_t, std::int32_t> find_crossing(const Surface &surface, Job &job);
 
-/// Throws Status::mesh_intersecting with the vertices of both triangles, which the original has too: decimation makes
-/// no new crossing. Vertices are numbered from `index_base`.
+/// Throws Status::mesh_intersecting with the vertices of both triangles, numbered from `index_base`.
 void refuse_crossing(const Surface &surface, std::int32_t index_base, Job &job);
 
 /// Throws Status::mesh_intersecting where a component lies in the material of another: a solid in a solid.

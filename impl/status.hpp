@@ -1,5 +1,5 @@
 // Statuses and the one exception type of the implementation.
-// The numbers are those of tetlod_status in the C ABI; capi/entry.hpp holds them equal.
+// The numbers are those of tetlod_status in the C ABI; capi/entry.cpp holds them equal.
 #pragma once
 #include <cstdint>
 #include <exception>

@@ -40,7 +40,7 @@ struct StridedArray {
   T at(std::int64_t tuple, int component) const {
     return reinterpret_cast<const T *>(data + tuple * tuple_stride + component * component_stride)[0];
   }
-  /// Reads as a double; integers that do not fit are rounded.
+  /// Of float32 or float64.
   double real(std::int64_t tuple, int component) const {
     return type == ElementType::float64 ? at<double>(tuple, component) : double(at<float>(tuple, component));
   }

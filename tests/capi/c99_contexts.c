@@ -137,6 +137,8 @@ static void check_bad_handle(tetlod_context *bad, const char *words) {
   tetlod_array array = array_of(TETLOD_FLOAT64, 1, 3, three);
   tetlod_run_report report = {.struct_size = sizeof report};
   tetlod_error_report error = {.struct_size = sizeof error};
+  tetlod_mesh_report mesh = {.struct_size = sizeof mesh};
+  uint64_t bytes;
   double real;
   int64_t integer;
   char room[8] = "before";
@@ -156,7 +158,12 @@ static void check_bad_handle(tetlod_context *bad, const char *words) {
   BAD(tetlod_submit_points_xyz(bad, &array, &array, &array));
   BAD(tetlod_submit_tets(bad, &array, 0));
   BAD(tetlod_submit_scalars(bad, NULL, &array));
+  BAD(tetlod_submit_field(bad, "u", TETLOD_POINT_FIELD, &array));
+  BAD(tetlod_submit_steering(bad, "u", 1, &array));
+  BAD(tetlod_submit_point_flags(bad, &array));
   BAD(tetlod_clear(bad));
+  BAD(tetlod_check(bad, &mesh));
+  BAD(tetlod_estimate_memory(bad, &bytes));
   BAD(tetlod_run(bad));
   BAD(tetlod_measure_error(bad, 0, &error));
   BAD(tetlod_histogram(bad, 0, 1, &integer));
@@ -166,6 +173,9 @@ static void check_bad_handle(tetlod_context *bad, const char *words) {
   BAD(tetlod_fetch_boundary(bad, 0, &array));
   BAD(tetlod_fetch_scalars(bad, &array));
   BAD(tetlod_fetch_report(bad, &report));
+  BAD(tetlod_fetch_field(bad, "u", &array));
+  BAD(tetlod_fetch_stencil(bad, 0, &array, &array));
+  BAD(tetlod_transfer(bad, &array, &array));
   BAD(tetlod_view_points(bad, &array));
   BAD(tetlod_view_tets(bad, &array));
   BAD(tetlod_view_scalars(bad, &array));
@@ -319,7 +329,13 @@ static void check_shorthands_and_preset(void) {
   FAILS(context, tetlod_set_min_distance(context, 0.75), TETLOD_ERR_OPTION, "min-distance 0.75");
   FAILS(context, tetlod_set_preset(context, 77), TETLOD_ERR_OPTION, "77");
   CHECK(tetlod_get_real(context, TETLOD_OPT_LAMBDA, &value) == TETLOD_OK && value == 0.75);
+  OK(context, tetlod_set_real(context, TETLOD_OPT_TARGET_RATIO, 0.5));
+  OK(context, tetlod_set_real(context, TETLOD_OPT_MAX_ERROR, 0.5));
+  OK(context, tetlod_set_real(context, TETLOD_OPT_MAX_DEVIATION, 0.5));
   OK(context, tetlod_set_preset(context, TETLOD_PRESET_PAPER));
+  CHECK(tetlod_get_real(context, TETLOD_OPT_TARGET_RATIO, &value) == TETLOD_OK && value == 0);
+  CHECK(tetlod_get_real(context, TETLOD_OPT_MAX_ERROR, &value) == TETLOD_OK && value == 0);
+  CHECK(tetlod_get_real(context, TETLOD_OPT_MAX_DEVIATION, &value) == TETLOD_OK && value == 0);
   CHECK(tetlod_get_real(context, TETLOD_OPT_LAMBDA, &value) == TETLOD_OK && value == 0.1);
   CHECK(tetlod_get_real(context, TETLOD_OPT_MIN_DISTANCE, &value) == TETLOD_OK && value == 0.01);
   CHECK(tetlod_get_int(context, TETLOD_OPT_TET_LEAF, &leaf) == TETLOD_OK && leaf == 500);

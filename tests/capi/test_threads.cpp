@@ -50,12 +50,13 @@ TEST(Threads, FourMeshesFiftyTimesEach) {
   EXPECT_EQ(wrong, 0);
 }
 
+/// So large that every stage has several blocks.
 TEST(Threads, TheirNumberDoesNotMatter) {
-  const Cube cube(9);
+  const Cube cube(25);
   const auto wanted = undisturbed(cube);
-  const Context context = make_context();
-  submit(context.get(), cube);
-  for (std::int64_t threads : {2, 3, 8, 0, 1}) {
+  for (std::int64_t threads : {2, 3, 8, 0}) {
+    const Context context = make_context();
+    submit(context.get(), cube);
     ASSERT_EQ(tetlod_set_int(context.get(), TETLOD_OPT_THREADS, threads), TETLOD_OK);
     ASSERT_EQ(tetlod_run(context.get()), TETLOD_OK) << message_of(context.get());
     EXPECT_EQ(bytes_of(context.get()), wanted) << threads << " threads";
