@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstring>
 #include <new>
+#include <stdexcept>
 
 #if defined(__SSE__)
 #include <xmmintrin.h>
@@ -123,6 +124,8 @@ tetlod_status status_of_exception(Message &message) noexcept {
     return fail_with(message, error.status(), error.what());
   } catch (const std::bad_alloc &) {
     return fail_with(message, Status::memory, "operator new had no more memory");
+  } catch (const std::runtime_error &error) {  // oneTBB's, when the system has no more threads for it
+    return fail_with(message, Status::memory, error.what());
   } catch (const std::exception &error) {
     return fail_with(message, Status::internal, error.what());
   } catch (...) {

@@ -18,6 +18,7 @@ namespace {
 
 constexpr int turn_milliseconds = 20;    // between two polls of the job
 constexpr double greeting_seconds = 30;  // for a loaded machine; usually 1 ms
+constexpr int worker_killed = 1004;      // beside the codes of TetgenReply: by somebody else
 
 template <std::size_t n>
 std::string bounded(const char (&characters)[n]) {
@@ -131,11 +132,11 @@ bool WorkerProcess::empty_files() const noexcept {
   return ::ftruncate(request_.number(), 0) == 0 && ::ftruncate(response_.number(), 0) == 0;
 }
 
-void WorkerProcess::begin(const TetgenRequest &request, double seconds, Job &job) {
+void WorkerProcess::begin(const TetgenRequest &request, double seconds, bool repeated, Job &job) {
   const bool used_before = runs();
   const double expected = expected_seconds(request.points.size() + request.insert.size());
   ensure(request, job);
-  call_.emplace(Call{request, seconds, Patience(seconds, expected, request.progress), 0, used_before});
+  call_.emplace(Call{request, seconds, Patience(seconds, expected, request.progress), 0, used_before, repeated});
   output_.start_call();
   send_request(*call_, job);
   call_->cpu_before = std::max(child_->cpu_seconds(), 0.0);
@@ -152,12 +153,15 @@ bool WorkerProcess::finish(Job &job, TetgenReply &reply) {
   reply.code = 0;
   reply.failure.clear();
   settle(kind, answer, job, reply);
-  // Perhaps it was killed while idle, and what a result is must not depend on that: a fresh one decides.
-  if (reply.code == worker_died && call_->used_before) {
+  // Perhaps it was ended while idle, and what a result is must not depend on that: a fresh one decides.
+  const bool perhaps_idle = reply.code == worker_died && call_->used_before;
+  if (!call_->repeated && (perhaps_idle || reply.code == worker_killed)) {
     const Call again = *call_;
-    begin(again.request, again.seconds, job);
+    begin(again.request, again.seconds, true, job);
     return false;
   }
+  if (reply.code == worker_killed)
+    fail(Status::memory, "two processes of %s were killed, perhaps for want of memory", path_.c_str());
   call_.reset();
   return true;
 }
@@ -184,11 +188,15 @@ void WorkerProcess::give_up(int code, const std::string &failure, TetgenReply &r
 }
 
 void WorkerProcess::give_up_dead(Job &job, TetgenReply &reply) {
+  constexpr int soon_milliseconds = 100;  // between the end of its connections and its own
+  pollfd handle = {child_->handle(), POLLIN, 0};
+  ::poll(&handle, 1, soon_milliseconds);
+  const bool by_itself = child_->has_ended();  // or else by us, now
   const Ending ending = child_->end();
   output_.drain(*child_, job);
   output_.flush(job);
-  const bool perhaps_memory = ending.known && ending.by_signal && ending.status == SIGKILL;
-  give_up(worker_died, "died with " + ending.text() + (perhaps_memory ? ", perhaps for want of memory" : ""), reply);
+  const bool killed = by_itself && ending.known && ending.by_signal && ending.status == SIGKILL;
+  give_up(killed ? worker_killed : worker_died, "died with " + ending.text(), reply);
 }
 
 }  // namespace tetlod

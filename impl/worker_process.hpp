@@ -30,8 +30,9 @@ class WorkerProcess {
 
   /// Hands over the call; waits for the greeting of a process that has to be started. What the request points to has to
   /// live until the end of the call.
-  void begin(const TetgenRequest &request, double seconds, Job &job);
+  void begin(const TetgenRequest &request, double seconds, Job &job) { begin(request, seconds, false, job); }
   /// True when the call is over, with what Worker::tetrahedralize says of the reply. Polls the job, does not wait.
+  /// Throws Status::memory when two processes were killed, for what came of another attempt would depend on that.
   bool finish(Job &job, TetgenReply &reply);
   /// What says that finish() may have something to do.
   std::array<pollfd, 3> events() const;
@@ -48,8 +49,10 @@ class WorkerProcess {
     Patience patience;
     double cpu_before;
     bool used_before;  ///< the process has had a call before this one
+    bool repeated;     ///< by a process that died
   };
 
+  void begin(const TetgenRequest &request, double seconds, bool repeated, Job &job);
   bool runs() const { return child_ && !child_->has_ended(); }
   void ensure(const TetgenRequest &request, Job &job);
   template <class Message>

@@ -92,6 +92,7 @@ void misbehave() {
   if (is("crashes")) std::raise(SIGSEGV);
   if (is("aborts")) std::abort();
   if (is("is killed")) std::raise(SIGKILL);
+  if (is("is killed once") && ::unlink(std::getenv("FAKE_REMESH_ONCE")) == 0) std::raise(SIGKILL);
   if (is("exits")) std::exit(9);
   if (is("hangs")) hang();
   if (is("waits")) ::usleep(300000);

@@ -62,9 +62,8 @@ TEST_F(WorkerTest, TetGenAssertionIsACode) {
 
 TEST_F(WorkerTest, Dies) {
   const std::pair<const char *, const char *> ways[] = {
-      {"crashes", "signal 11 (SEGV)"}, {"aborts", "signal 6 (ABRT)"},        {"is killed", "signal 9 (KILL)"},
-      {"exits", "exit status 9"},      {"dies half-way", "signal 9 (KILL)"}, {"leaves a child", "exit status 9"},
-      {"hangs up", "signal 9 (KILL)"},
+      {"crashes", "signal 11 (SEGV)"},     {"aborts", "signal 6 (ABRT)"},   {"exits", "exit status 9"},
+      {"leaves a child", "exit status 9"}, {"hangs up", "signal 9 (KILL)"},
   };
   for (const auto &[mode, said] : ways) {
     fake(mode);
@@ -76,6 +75,26 @@ TEST_F(WorkerTest, Dies) {
     ::setenv("FAKE_REMESH", "", 1);
     EXPECT_TRUE(works()) << mode;
   }
+}
+
+/// As by a system that is short of memory: no other attempt may take its place.
+TEST_F(WorkerTest, IsKilled) {
+  for (const char *mode : {"is killed", "dies half-way"}) {
+    fake(mode);
+    EXPECT_EQ(thrown(), Status::memory) << mode;
+    EXPECT_NE(message.find("were killed"), std::string::npos) << message;
+    ::setenv("FAKE_REMESH", "", 1);
+    EXPECT_TRUE(works()) << mode;
+  }
+}
+
+TEST_F(WorkerTest, IsKilledOnce) {
+  const std::string file = testing::TempDir() + "tetlod_killed_once_" + std::to_string(::getpid());
+  std::ofstream(file) << "";
+  ::setenv("FAKE_REMESH_ONCE", file.c_str(), 1);
+  fake("is killed once");
+  EXPECT_TRUE(works());
+  EXPECT_FALSE(std::ifstream(file).good()) << "it was killed";
 }
 
 TEST_F(WorkerTest, Lies) {
