@@ -32,8 +32,8 @@
  * and must live, unchanged in place and shape, until the same slot is submitted again, tetlod_clear(), or
  *              tetlod_destroy(). Only the bytes that an array describes are read or written.
  *   Host       The library never prints, exits, aborts, installs signal handlers, or touches rand(), the locale, the
- *              floating-point state or the environment, and no C++ exception leaves it. TetGen runs in a process of
- *              its own, tetlod-remesh; whatever happens to it is a status here.
+ *              floating-point state or the environment, and no C++ exception leaves it. TetGen runs in a child process,
+ *              tetlod-remesh, until tetlod_destroy(); a host that waits for all of its children waits for it, too.
  *   Results    The same input, options and seed give the same bytes, whatever the number of threads (with
  *              TETLOD_OPT_WARM_START, after the same runs).
  */
@@ -85,7 +85,7 @@ enum {
   TETLOD_ERR_MESH_NONFINITE = 32,    /* NaN or infinity in a coordinate or value */
   TETLOD_ERR_MESH_DEGENERATE = 33,   /* no volume, an extent of 0, or what a policy refuses */
   TETLOD_ERR_MESH_NONMANIFOLD = 34,  /* a face with more than two tets */
-  TETLOD_ERR_MESH_INTERSECTING = 35, /* the boundary crosses itself, or tets overlap */
+  TETLOD_ERR_MESH_INTERSECTING = 35, /* the boundary crosses or touches itself, or tets overlap */
   TETLOD_ERR_MESH_PARTITION = 36,    /* reserved for partitioned meshes */
   TETLOD_ERR_MESH_TOO_LARGE = 37,    /* 2^29 points or tets, or more; 2^31 / 3 boundary triangles */
   /* the remesher */
@@ -248,7 +248,7 @@ TETLOD_API void tetlod_destroy(tetlod_context *context);
  * buffer may be NULL when capacity is 0. */
 TETLOD_API size_t tetlod_last_message(const tetlod_context *context, char *buffer, size_t capacity);
 
-/* level: 0 debug, 1 info, 2 warning. The message lives during the call. */
+/* What was tried in vain. level: 0 debug, 1 info, 2 warning. The message lives during the call. */
 typedef void (*tetlod_log_fn)(void *user, int32_t level, const char *message);
 /* fn NULL: no log (the default). Messages below min_level are not passed. */
 TETLOD_API tetlod_status tetlod_set_log(tetlod_context *context, tetlod_log_fn fn, void *user, int32_t min_level);
@@ -431,7 +431,7 @@ TETLOD_API tetlod_status tetlod_estimate_memory(tetlod_context *context, uint64_
  *
  * Guarantees of a result: every tet has a positive volume, every face is used by one or two tets, the boundary is
  * closed, does not cross itself and has the components and the Euler characteristic of the original's, every value lies
- * within the original's range. Where edges of the solid collapse (TETLOD_OPT_EFFORT) the volume changes by 1 % at most.
+ * within the original's range. Where edges of the solid collapse (remesh_attempts 0) the volume changes by 1 % at most.
  * Boundary vertices come first, then samples (each an original vertex with its value), then Steiner points; with a
  * target ratio, boundary vertices, then all others. */
 TETLOD_API tetlod_status tetlod_run(tetlod_context *context);

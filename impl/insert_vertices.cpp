@@ -87,6 +87,22 @@ std::size_t sort_worst(const AdaptiveMesh<m> &mesh, std::size_t first, std::size
   return last;
 }
 
+/// Whether faces of the boundary may be divided at a place: at it, and at the middles of the new edges and triangles. A
+/// corner of the simplex gives way to the new vertex in each.
+bool may_divide(const TetComplex &mesh, Span<const Triangle> faces, Span<const std::int32_t> simplex,
+                const Vec3 &place) {
+  if (!mesh.may_bound) return true;
+  if (!mesh.may_bound(place)) return false;
+  for (const Triangle &face : faces)
+    for (std::size_t k = 0; k < 3; k++) {
+      if (std::find(simplex.begin(), simplex.end(), face[k]) == simplex.end()) continue;
+      const Vec3 &a = mesh.points[std::size_t(face[(k + 1) % 3])], &b = mesh.points[std::size_t(face[(k + 2) % 3])];
+      for (const Vec3 &middle : {0.5 * (place + a), 0.5 * (place + b), (place + a + b) / 3.0})
+        if (!mesh.may_bound(middle)) return false;
+    }
+  return true;
+}
+
 }  // namespace
 
 template <std::size_t m>
@@ -110,25 +126,28 @@ bool insert_vertex(std::int32_t t, const Vec3 &p, const Values<m> &values, doubl
     return false;
   Array<std::int32_t> old(&mesh.memory()), made(&mesh.memory());
   Array<Tet> fresh(&mesh.memory());
+  Array<Triangle> faces(&mesh.memory());  // of the boundary
   mesh.tets_with(t, simplex, size, old);
   const auto v = std::int32_t(mesh.points.size());
-  bool on_boundary = false;
   for (std::int32_t whole : old)
     for (std::size_t k = 0; k < 4; k++) {
       Tet part = mesh.tets[std::size_t(whole)];
       if (std::find(simplex, simplex + size, part[k]) == simplex + size) {
-        on_boundary |= mesh.neighbours[std::size_t(whole)][k] < 0;
+        if (mesh.neighbours[std::size_t(whole)][k] < 0)
+          faces.push_back({part[std::size_t(tet_face[k][0])], part[std::size_t(tet_face[k][1])],
+                           part[std::size_t(tet_face[k][2])]});
         continue;
       }
       part[k] = v;
       fresh.push_back(part);
     }
+  const bool on_boundary = !faces.empty();
   // The faces among vertices that the host keeps stay, so that partitions with kept interfaces go on fitting.
   if (on_boundary &&
       std::all_of(simplex, simplex + size, [&](std::int32_t u) { return (mesh.kept[std::size_t(u)] & ~held) != 0; }))
     return false;
   const Vec3 place = size == 4 ? p : sum / total;
-  if (on_boundary && mesh.may_bound && !mesh.may_bound(place)) return false;
+  if (on_boundary && !may_divide(mesh, faces, {simplex, size}, place)) return false;
   mesh.points.push_back(place);
   for (const Tet &part : fresh)
     if (!mesh.is_sound(part, least)) {

@@ -143,7 +143,7 @@ class Refinement {
     }
   }
 
-  /// From the original's boundary. Faces keep near to it at their corners alone.
+  /// From the original's boundary.
   double deviation_at(const Vec3 &p) {
     if (!nearest_) nearest_.emplace(original_.points, options_.boundary, 8, job_);
     return nearest_->nearest(p).distance;

@@ -92,7 +92,8 @@ class TopologyFinder {
 
   void pair(std::int32_t a, std::int32_t b) {
     if (from(a) == from(b) || a == b)
-      fail(Status::mesh_intersecting, "the solid overlaps itself at the boundary edge from vertex %lld to vertex %lld",
+      fail(Status::mesh_intersecting,
+           "solids overlap, or touch without sharing faces, at the boundary edge from vertex %lld to vertex %lld",
            numbers_.vertex(low_end(a)), numbers_.vertex(std::max(from(a), to(a))));
     out_.mate[std::size_t(a)] = b;
     out_.mate[std::size_t(b)] = a;

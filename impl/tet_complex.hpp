@@ -35,7 +35,7 @@ class TetComplex {
   Array<std::uint8_t> kept;                     ///< vertices that keep place and values: the host's flags, or `held`
   Array<Tet> tets;                              ///< every one positive; the first corner of a free slot is -1
   Array<Tet> neighbours;                        ///< across the face opposite each corner; -1 on the boundary
-  std::function<bool(const Vec3 &)> may_bound;  ///< whether a new vertex of the boundary may be there; empty: anywhere
+  std::function<bool(const Vec3 &)> may_bound;  ///< whether a boundary that is divided may be there; empty: anywhere
   Array<std::int32_t> tet_of;                   ///< one of the tets of each vertex
 
   /// Finds the neighbours of `tets`, which has no free slot yet.

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <map>
 
 #include "fixtures.hpp"
 
@@ -135,6 +136,73 @@ TEST(Outside, ABoundHoldsAtTheNearestPointOfTheBoundary) {
       const double u = 0.8 * x - 0.6 * y, v = 0.6 * x + 0.8 * y;
       return Point{1000 + u, 1000 + 0.8 * v - 0.6 * p[2], 1000 + 0.6 * v + 0.8 * p[2]};
     });
+}
+
+/// The faces that a single tet has.
+std::vector<std::array<Point, 3>> boundary_of(const Cube &cube) {
+  std::map<std::array<std::int32_t, 3>, int> uses;
+  for (std::size_t t = 0; t < cube.corners.size(); t += 4)
+    for (std::size_t k = 0; k < 4; k++) {
+      std::array<std::int32_t, 3> face;
+      for (std::size_t i = 0; i < 3; i++) face[i] = cube.corners[t + (k + 1 + i) % 4];
+      std::sort(face.begin(), face.end());
+      uses[face]++;
+    }
+  std::vector<std::array<Point, 3>> boundary;
+  for (const auto &[face, count] : uses) {
+    if (count > 1) continue;
+    boundary.emplace_back();
+    for (std::size_t i = 0; i < 3; i++) std::copy_n(cube.xyz.data() + 3 * face[i], 3, boundary.back()[i].data());
+  }
+  return boundary;
+}
+
+double distance_to(const std::vector<std::array<Point, 3>> &triangles, const Point &p) {
+  constexpr double none[3] = {0, 0, 0};
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto &corners : triangles) least = std::min(least, nearest_in(corners.data(), none, p).distance2);
+  return std::sqrt(least);
+}
+
+/// A block with a rough skin. Where a vertex is inserted on it for the bound's sake, new middles have to keep near,
+/// too.
+TEST(Outside, DeviationIsBoundedAtTheMiddlesOfDividedTriangles) {
+  constexpr double bound = 0.1, limit = 0.01;
+  Cube cube(5);
+  for (std::size_t v = 0; v < cube.values.size(); v++) {
+    double *const p = &cube.xyz[3 * v];
+    p[2] += 0.02 * std::sin(40 * p[0]) * std::cos(32 * p[1]);
+    cube.values[v] = std::tanh(8 * (p[0] - 0.5 + 0.3 * std::sin(6 * p[1]))) + 0.3 * std::cos(5 * p[2]);
+  }
+  const auto original = boundary_of(cube);
+  Point low = original[0][0], high = low;
+  for (const auto &corners : original)
+    for (const Point &p : corners)
+      for (std::size_t k = 0; k < 3; k++) low[k] = std::min(low[k], p[k]), high[k] = std::max(high[k], p[k]);
+  const double diagonal = std::sqrt(dot(minus(high, low), minus(high, low)));
+  for (int effort : {TETLOD_EFFORT_FAST, TETLOD_EFFORT_ACCURATE}) {
+    const Context context = make_context();
+    submit(context.get(), cube);
+    tetlod_set_int(context.get(), TETLOD_OPT_EFFORT, effort);
+    tetlod_set_real(context.get(), TETLOD_OPT_MAX_ERROR, bound);
+    tetlod_set_real(context.get(), TETLOD_OPT_MAX_DEVIATION, limit);
+    ASSERT_EQ(tetlod_run(context.get()), TETLOD_OK) << message_of(context.get());
+    const LastResult result(context.get());
+    EXPECT_LT(result.boundary.size(), original.size());
+    double largest = 0;
+    for (const auto &triangle : result.boundary) {
+      const Point &a = result.points[std::size_t(triangle[0])], &b = result.points[std::size_t(triangle[1])],
+                  &c = result.points[std::size_t(triangle[2])];
+      Point middle, side[3];
+      for (std::size_t k = 0; k < 3; k++) {
+        middle[k] = (a[k] + b[k] + c[k]) / 3;
+        side[0][k] = 0.5 * (a[k] + b[k]), side[1][k] = 0.5 * (b[k] + c[k]), side[2][k] = 0.5 * (c[k] + a[k]);
+      }
+      for (const Point &p : {a, middle, side[0], side[1], side[2]})
+        largest = std::max(largest, distance_to(original, p));
+    }
+    EXPECT_LE(largest, limit * diagonal * (1 + 1e-9)) << effort;
+  }
 }
 
 }  // namespace
