@@ -74,7 +74,8 @@ void refuse_crossing(const Surface &surface, std::int32_t index_base, Job &job) 
   if (a < 0) return;
   const std::array<long long, 3> first = names(surface, a, index_base), second = names(surface, b, index_base);
   fail(Status::mesh_intersecting,
-       "the boundary crosses or touches itself: its faces of vertices %lld, %lld, %lld and of vertices %lld, %lld, %lld meet",
+       "the boundary crosses or touches itself: its faces of vertices %lld, %lld, %lld and of vertices %lld, %lld, "
+       "%lld meet",
        first[0], first[1], first[2], second[0], second[1], second[2]);
 }
 
