@@ -28,9 +28,9 @@
  *              tetlod_cancel): that is TETLOD_ERR_STATE, and tetlod_destroy is ignored. A C++ exception that leaves
  *              one ends the run with TETLOD_ERR_CANCELLED.
  *   Memory     Submitted arrays are borrowed: they are read during tetlod_run(), tetlod_check(), calls that estimate,
- *              measure or count, and the first tetlod_fetch_stencil() or tetlod_transfer() of a result, never written,
- * and must live, unchanged in place and shape, until the same slot is submitted again, tetlod_clear(), or
- *              tetlod_destroy(). Only the bytes that an array describes are read or written.
+ *              measure or count, and the first tetlod_fetch_stencil() or tetlod_transfer() of a result, never
+ *              written, and must live, unchanged in place and shape, until the same slot is submitted again,
+ *              tetlod_clear(), or tetlod_destroy(). Only the bytes that an array describes are read or written.
  *   Host       The library never prints, exits, aborts, installs signal handlers, or touches rand(), the locale, the
  *              floating-point state or the environment, and no C++ exception leaves it. TetGen runs in a child process,
  *              tetlod-remesh, until tetlod_destroy(); a host that waits for all of its children waits for it, too.
@@ -75,7 +75,7 @@ enum {
   TETLOD_ERR_STRUCT_SIZE = 13, /* struct_size not set, or api_version newer or of another major */
   TETLOD_ERR_BUFFER_SIZE = 14, /* the destination has room for fewer tuples than the result has */
   /* resources */
-  TETLOD_ERR_MEMORY = 20,       /* the allocator had no more */
+  TETLOD_ERR_MEMORY = 20,       /* the allocator, or the system, had no more */
   TETLOD_ERR_MEMORY_LIMIT = 21, /* tetlod_config.memory_limit would be passed */
   TETLOD_ERR_CANCELLED = 22,    /* by tetlod_cancel or the progress callback */
   TETLOD_ERR_TIME_LIMIT = 23,   /* TETLOD_OPT_TIME_LIMIT is used up */

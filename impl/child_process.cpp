@@ -38,7 +38,7 @@ std::string error_text(int error) {
 Descriptor lifted(const Descriptor &low, const char *what) {
   if (low.number() < 0) fail_for_want_of(what, errno);
   const int high = ::fcntl(low.number(), F_DUPFD_CLOEXEC, 2 * protocol::first_free_descriptor);
-  if (high < 0) fail_for_want_of(what, errno);
+  if (high < 0) fail_for_want_of(what, errno == EINVAL ? EMFILE : errno);  // fewer numbers than that are allowed
   return Descriptor(high);
 }
 
