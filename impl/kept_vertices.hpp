@@ -22,10 +22,10 @@ class KeptVertices {
   Span<const std::uint8_t> by_host() const { return flags_; }
   Span<const std::uint8_t> restored() const { return restored_; }
 
-  /// Throws Status::remesh when the host flags one that was selected and is not left. left: -1: none.
+  /// Of the host's flags, if there are any: throws Status::remesh when one that was selected is not left. left: -1:
+  /// none.
   void refuse_lost(Span<const std::int32_t> selected, Span<const std::int32_t> left, std::int32_t index_base,
                    Memory &memory) const {
-    if (flags_.empty()) return;
     Array<std::uint8_t> lost(flags_, &memory);
     for (std::int32_t v : left)
       if (v >= 0) lost[std::size_t(v)] = 0;

@@ -218,8 +218,9 @@ class Pipeline {
     cull();
     try {
       remesh(worker);
-      const Array<std::int32_t> left = original_vertices({surface_, samples_, remeshed_}, job_.memory);
-      kept_.refuse_lost(selected_, left, original_.index_base, job_.memory);
+      if (!original_.flags.empty())
+        kept_.refuse_lost(selected_, original_vertices({surface_, samples_, remeshed_}, job_.memory),
+                          original_.index_base, job_.memory);
       return true;
     } catch (const Error &error) {
       if (error.status() != Status::remesh) throw;

@@ -29,12 +29,16 @@ Fingerprint fingerprint_of(Span<const double> values, const DecimateOptions &opt
 }  // namespace
 
 bool Prepared::holds(const Input &input, const Options &options, Job &job) {
-  return filled_ && stamp_of(input, options, job) == stamp_ && renew_values(input, job, original);
+  return holds(stamp_of(input, options, job), input, job);
+}
+
+bool Prepared::holds(const Fingerprint &stamp, const Input &input, Job &job) {
+  return filled_ && stamp == stamp_ && renew_values(input, job, original);
 }
 
 bool Prepared::renew(const Input &input, const Options &options, Job &job) {
   const Fingerprint stamp = stamp_of(input, options, job);
-  if (filled_ && stamp == stamp_ && renew_values(input, job, original)) return true;
+  if (holds(stamp, input, job)) return true;
   forget(job.memory);
   stamp_ = stamp;
   return false;

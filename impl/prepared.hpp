@@ -67,6 +67,7 @@ class Prepared {
   Span<std::uint8_t> verdicts(double least_distance, std::int64_t leaf, Memory &memory);
 
  private:
+  bool holds(const Fingerprint &stamp, const Input &input, Job &job);
   void prepare_surface(Job &job);
   DecimateReport decimate_logged(const DecimateOptions &options, Span<const std::uint8_t> flags, Job &job,
                                  Surface &surface, bool &reused);
