@@ -9,7 +9,7 @@
 #include "deviation.hpp"
 #include "solid_blocks.hpp"
 #include "solid_costs.hpp"
-#include "solid_rules.hpp"
+#include "solid_places.hpp"
 #include "solid_state.hpp"
 
 namespace tetlod {
@@ -18,28 +18,10 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Part of the vertices whose cheapest edges a round looks at. A smaller one comes nearer to the cheapest edge of all
-/// first, and loses no less.
-constexpr double part_of_round = 0.33;
+/// first, and loses no less; of removals a larger one does.
+constexpr double part_of_round = 0.33, part_of_removals = 0.5;
 /// Tets that a collapse takes away, about.
 constexpr double tets_a_collapse = 5.5;
-/// Of the volume, that the boundary may lose.
-constexpr double volume_to_lose = 0.01;
-/// What tets that are flat have to keep of their shape, and slivers of the boundary of their quality. In a graded mesh
-/// most tets are flat; on walls that are stretched all triangles are slivers, as good as each other but for a little.
-/// Nothing could go there without making some worse.
-constexpr double kept_of_flat = 0.7, kept_of_sliver = 0.999;
-/// A best place further off than this part of the edge is none.
-constexpr double longest_step = 0.5;
-
-template <std::size_t m>
-struct SolidCollapse {
-  explicit SolidCollapse(Memory &memory) : star(memory) {}
-  SolidEdge edge;
-  Vector<3 + m> place{};
-  std::int32_t found_at = -1;  ///< the end whose cheapest edge it is
-  bool of_boundary = false;
-  Star star;  ///< of the boundary
-};
 
 template <std::size_t m>
 class SolidDecimator {
@@ -54,6 +36,7 @@ class SolidDecimator {
         mesh_(std::move(start.solid)),
         progress_(std::move(start.progress)),
         costs_(mesh_, progress_),
+        places_(mesh_, options.holds_bound, surface.points.size()),
         states_(states),
         count_(std::int64_t(mesh_.tets.size())),
         blocks_(mesh_.points.size(), job.memory),
@@ -67,7 +50,6 @@ class SolidDecimator {
       rooms_.emplace_back(job.memory);
       works_.emplace_back(job.memory);
     }
-    volume_of_collapse_ = volume_to_lose * mesh_.measures.volume / double(surface.points.size());
     if (options.max_deviation > 0) deviation_.emplace(surface, options.max_deviation, job);
   }
 
@@ -112,6 +94,9 @@ class SolidDecimator {
   double cost() const { return progress_.cost; }  ///< of the collapses
 
  private:
+  /// Tets that it is certain to come to.
+  std::int64_t size() const { return std::max(options_.tets, options_.enough); }
+
   /// Rounds of a vertex none of whose edges is admissible, and of one that is looked at again after the round.
   static constexpr int stuck = -2, waiting = -3;
 
@@ -128,7 +113,7 @@ class SolidDecimator {
 
   Values<m> values_of(std::int32_t v) const {
     Values<m> values;
-    for (std::size_t i = 0; i < m; i++) values[i] = mesh_.vertex(v).lengths[i] / fields_.scales[i];
+    for (std::size_t i = 0; i < m; i++) values[i] = mesh_.lengths(v)[i] / fields_.scales[i];
     return fields_.range.clamp(values);
   }
 
@@ -140,11 +125,19 @@ class SolidDecimator {
   /// What an edge of the round may cost. Towards the end rounds get smaller, so that the last collapses are the
   /// cheapest.
   double limit_of_round() {
+    choose_way();
     costs_.find_changed(job_);
-    const double most = part_of_round * double(left_.size()),
+    const double most = (progress_.removes ? part_of_removals : part_of_round) * double(left_.size()),
                  needed = 1 + double(count_ - options_.tets) / tets_a_collapse;
     progress_.allow(double(count_) - most * tets_a_collapse);
     return costs_.of_cheapest(std::size_t(std::min(most, needed)), left_, job_.memory);
+  }
+
+  /// The costs that are known are those of the way.
+  void choose_way() {
+    const bool removed = progress_.removes;
+    progress_.choose_way(count_, size());
+    if (progress_.removes != removed) progress_.changed = left_;
   }
 
   void collapse_some(double limit) {
@@ -213,7 +206,7 @@ class SolidDecimator {
 
   /// What is left moves together, so that it is near in memory.
   void close_gaps() {
-    progress_.next_closing = count_ / 2;
+    while (progress_.next_closing > count_) progress_.next_closing /= 2;
     const Array<std::int32_t> number = numbers_of(left_, mesh_.points.size(), job_);
     SolidRemains<m> remains = mesh_.take_remains(number, job_);
     progress_.close_gaps(number, job_);
@@ -225,11 +218,15 @@ class SolidDecimator {
   }
 
   /// Unless it is of this target alone, kept already, or would take memory that the run does not need without it. Where
-  /// new values may begin must not depend on the peak, which depends on the threads.
+  /// new values may begin must not depend on the peak, which depends on the threads. While vertices are removed the way
+  /// is that to all smaller targets, too: such states take the place of others.
   void keep_state(SolidRemains<m> &remains) {
-    if (!states_) return;
-    const bool is_kept = !states_->empty() && states_->back().remains.tets.size() <= remains.tets.size();
-    if (is_kept || progress_.largest_target < options_.tets) return;
+    if (!states_ || progress_.largest_target < options_.tets) return;
+    const auto last_is_no_finer = [&] {
+      return !states_->empty() && states_->back().remains.tets.size() <= remains.tets.size();
+    };
+    while (progress_.removes && last_is_no_finer() && !states_->back().progress.removes) states_->pop_back();
+    if (last_is_no_finer()) return;
     if (progress_.follows() ? remains.tets.size() > remains.measures.tets / 2 : raises_peak(remains)) return;
     remains.give_spare_back();
     states_->push_back({SolidRemains<m>(remains, job_.memory), SolidProgress(progress_, job_.memory)});
@@ -261,7 +258,7 @@ class SolidDecimator {
     later.round = stuck;
     for (std::int32_t u : mesh_.neighbours.of(v)) {
       if (!costs_.owns(v, u)) continue;
-      const BestOfEdge best = mesh_.cost(v, u);
+      const BestOfEdge best = costs_.of_edge(v, u);
       if (best.cost > tried && best.cost <= limit) dearer.push({best.cost, best.t, u, progress_.round});
       if (best.cost > limit && best.cost < later.cost) later = {best.cost, best.t, u, progress_.round};
     }
@@ -278,48 +275,9 @@ class SolidDecimator {
     return false;
   }
 
-  bool is_admissible(std::int32_t v, const CheapestEdge &cheapest, SolidCollapse<m> &collapse) {
-    const auto [stays, gone] = mesh_.ends_of(v, cheapest.other);
-    collapse.found_at = v;
-    if (!look_around(mesh_, stays, gone, collapse.edge)) return false;
-    collapse.of_boundary = mesh_.on_boundary(gone);
-    return find_place(cheapest.t, collapse);
-  }
-
-  /// The best place near the edge, or, where that is none, the best along it.
-  bool find_place(double t, SolidCollapse<m> &collapse) {
-    const SolidEdge &edge = collapse.edge;
-    const Place stays = mesh_.place(edge.stays), gone = mesh_.place(edge.gone);
-    const Place d = minus(gone, stays), best = along(stays, t, d);
-    StepConstraint constraint;
-    if (collapse.of_boundary) constraint = keeping_volume(mesh_, edge, point_of(best));
-    if (!mesh_.keeps_place(edge.stays, edge.gone)) {
-      LocalQuadric<3 + m> sum = mesh_.vertex(edge.stays).quadric.moved(minus(best, stays));
-      sum.add(mesh_.vertex(edge.gone).quadric.moved(minus(best, gone)));
-      Place step;
-      if (step_to_least(sum, constraint, step) && is_short(step, d) && keeps_volume(constraint, step) &&
-          suits(along(best, 1, step), collapse))
-        return true;
-    }
-    return keeps_volume(constraint, {}) && suits(best, collapse);
-  }
-
-  bool keeps_volume(const StepConstraint &constraint, const Place &step) const {
-    return constraint.missed_by(point_of(step)) / 6 <= volume_of_collapse_;
-  }
-
-  static bool is_short(const Place &step, const Place &edge) {
-    return length2(point_of(step)) <= longest_step * longest_step * length2(point_of(edge));
-  }
-
-  bool suits(const Place &place, SolidCollapse<m> &collapse) {
-    const Vec3 point = point_of(place);
-    collapse.place = place;
-    if (flattens(mesh_, collapse.edge, point, options_.holds_bound ? 1 : kept_of_flat)) return false;
-    if (!collapse.of_boundary) return true;
-    Star &star = collapse.star;
-    return look_around_on_boundary(mesh_, collapse.edge, point, star) && !turns_too_far(star) && !folds(star) &&
-           !makes_sliver(star, options_.holds_bound ? 1 : kept_of_sliver);
+  bool is_admissible(std::int32_t v, const CheapestEdge &cheapest, SolidCollapse<m> &collapse) const {
+    return costs_.may_be_removed(v) ? places_.find_removal(v, cheapest.other, collapse)
+                                    : places_.find(v, cheapest.other, cheapest.t, collapse);
   }
 
   void make(const SolidCollapse<m> &collapse, Work &work, CollapseRoom &room) {
@@ -352,13 +310,13 @@ class SolidDecimator {
   SolidMesh<m> mesh_;
   SolidProgress progress_;
   SolidCosts<m> costs_;
+  SolidPlaces<m> places_;
   Array<SolidState<m>> *states_;
   std::int64_t count_;  // of the tets that are left
   SolidBlocks blocks_;
   Array<CollapseRoom> rooms_;  // of each block
   Array<Work> works_;
   std::optional<DeviationLimit> deviation_;
-  double volume_of_collapse_ = 0;
   Array<std::int32_t> left_;
 };
 

@@ -36,6 +36,16 @@ struct LocalQuadric {
       for (std::size_t j = 0; j < n; j++) image[i] += (i < j ? a[entry_of(j, i)] : a[entry_of(i, j)]) * d[j];
     return image;
   }
+  /// What it is at the distance d.
+  double rise(const Vector<n> &d) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < n; i++) {
+      double of_row = g[i] + 0.5 * a[entry_of(i, i)] * d[i];
+      for (std::size_t j = 0; j < i; j++) of_row += a[entry_of(i, j)] * d[j];
+      sum += of_row * d[i];
+    }
+    return 2 * sum;
+  }
   /// weight times (normal . d)^2.
   void add_square(const Vector<n> &normal, double weight) {
     for (std::size_t i = 0; i < n; i++)

@@ -19,11 +19,11 @@ class QuadricRenewal {
         home_(home),
         job_(job),
         remains_(remains),
-        error_(remains.vertices.size(), 0.0, &job.memory) {}
+        error_(remains.points.size(), 0.0, &job.memory) {}
 
   double run() {
     begin();
-    const std::size_t vertices = remains_.vertices.size();
+    const std::size_t vertices = remains_.points.size();
     job_.parallel.for_parts(vertices, [&](std::size_t, std::size_t begin, std::size_t end) {
       add_tets(begin, end);
       add_planes(begin, end);
@@ -45,22 +45,22 @@ class QuadricRenewal {
   Place place(std::size_t v) const {
     const Vec3 &p = remains_.points[v];
     Place place{p.x, p.y, p.z};
-    for (std::size_t i = 0; i < m; i++) place[3 + i] = remains_.vertices[v].lengths[i];
+    for (std::size_t i = 0; i < m; i++) place[3 + i] = remains_.lengths[v][i];
     return place;
   }
 
   void begin() {
-    for (std::size_t v = 0; v < remains_.vertices.size(); v++) {
-      remains_.vertices[v] = {};
+    for (std::size_t v = 0; v < remains_.points.size(); v++) {
+      remains_.quadrics[v] = {};
       const Place at = original_place(remains_.origin[v]);
-      std::copy(at.begin() + 3, at.end(), remains_.vertices[v].lengths.begin());
+      std::copy(at.begin() + 3, at.end(), remains_.lengths[v].begin());
     }
   }
 
   /// The squared distance from what goes through an original place.
   void add_square(std::size_t v, const Place &normal, const Place &through, double weight) {
     const double off = dot<3 + m>(normal, minus(place(v), through));
-    LocalQuadric<3 + m> &quadric = remains_.vertices[v].quadric;
+    LocalQuadric<3 + m> &quadric = remains_.quadrics[v];
     quadric.add_square(normal, weight);
     quadric.g = along(quadric.g, weight * off, normal);
     error_[v] += weight * off * off;
@@ -107,16 +107,16 @@ class QuadricRenewal {
 
   /// Each field has squares of its own.
   void fit_values(std::size_t v) {
-    SolidVertex<m> &vertex = remains_.vertices[v];
+    LocalQuadric<3 + m> &quadric = remains_.quadrics[v];
     Place step{};
     for (std::size_t i = 0; i < m; i++) {
-      const double tets = vertex.quadric.a[entry_of(3 + i, 3 + i)], slope = vertex.quadric.g[3 + i];
+      const double tets = quadric.a[entry_of(3 + i, 3 + i)], slope = quadric.g[3 + i];
       if (!(tets > 0)) continue;
       step[3 + i] = -slope / tets;
       error_[v] -= slope * slope / tets;
-      vertex.lengths[i] += step[3 + i];
+      remains_.lengths[v][i] += step[3 + i];
     }
-    vertex.quadric = vertex.quadric.moved(step);
+    quadric = quadric.moved(step);
   }
 
   const MeshView &original_;

@@ -1,5 +1,7 @@
 #include "solid_complex.hpp"
 
+#include <numeric>
+
 #include "tet_frame.hpp"
 
 namespace tetlod {
@@ -113,7 +115,8 @@ void SolidComplex::merge_tets(const SolidEdge &edge, CollapseRoom &room) {
     *std::find(tet.begin(), tet.end(), edge.gone) = edge.stays;
   }
   room.list.assign(edge.gone_tets.begin(), edge.gone_tets.end());
-  room.list.insert(room.list.end(), edge.stays_tets.begin(), edge.stays_tets.end());
+  for (std::int32_t t : tets_of.of(edge.stays))
+    if (has_tet(t)) room.list.push_back(t);
   tets_of.set(edge.stays, room.list, room.tets);
   tets_of.clear(edge.gone);
 }
@@ -154,7 +157,7 @@ void SolidComplex::merge_neighbours(const SolidEdge &edge, CollapseRoom &room) {
 }
 
 void SolidComplex::tidy(Span<CollapseRoom> rooms, Job &job) {
-  constexpr std::size_t much = 4;  // times what has grown is all
+  constexpr std::size_t much = 8;  // times what has grown is all
   const auto tidy_up = [&](StarLists &lists, ListRoom CollapseRoom::*room) {
     std::size_t taken = 0;
     for (const CollapseRoom &some : rooms) taken += (some.*room).taken();

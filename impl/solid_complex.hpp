@@ -34,8 +34,17 @@ inline Array<std::int32_t> numbers_of(Span<const std::int32_t> left, std::size_t
 /// An edge with the tets around it, those at the edge apart.
 struct SolidEdge {
   std::int32_t stays, gone;
-  Few<std::int32_t, 2 * largest_cavity> stays_tets, gone_tets;
+  Few<std::int32_t, 2 * largest_cavity> stays_tets;  ///< none where that end keeps its place
+  Few<std::int32_t, 2 * largest_cavity> gone_tets;
   Cavity edge_tets;
+
+  void begin(std::int32_t one_end, std::int32_t other_end) {
+    stays = one_end;
+    gone = other_end;
+    stays_tets.clear();
+    gone_tets.clear();
+    edge_tets.clear();
+  }
 };
 
 /// What collapses need, for one thread at a time.

@@ -1,4 +1,4 @@
-// What the edges of a solid cost to collapse, as far as it is known.
+// What the edges of a solid cost to collapse, and its vertices to remove, as far as it is known.
 #pragma once
 #include <algorithm>
 
@@ -11,25 +11,36 @@ class SolidCosts {
  public:
   SolidCosts(const SolidMesh<m> &mesh, SolidProgress &progress) : mesh_(mesh), progress_(progress) {}
 
-  /// An edge is looked at from one end, the one that moved last.
+  /// Whether v is looked at as one that moves into a neighbour.
+  bool may_be_removed(std::int32_t v) const { return progress_.removes && !mesh_.on_boundary(v); }
+
+  /// An edge is looked at from one end, the one that moved last; the removal of a vertex from itself.
   bool owns(std::int32_t v, std::int32_t u) const {
+    if (may_be_removed(v)) return true;
+    if (may_be_removed(u)) return false;
     const int at = progress_.moved[std::size_t(v)], other_at = progress_.moved[std::size_t(u)];
     return at != other_at ? at > other_at : v < u;
   }
 
   /// Its other end may have moved or gone since.
   bool is_known(const CheapestEdge &edge) const {
-    return edge.other >= 0 && mesh_.has_vertex(edge.other) && progress_.moved[std::size_t(edge.other)] < edge.round;
+    if (edge.other < 0 || !mesh_.has_vertex(edge.other)) return false;
+    return may_be_removed(edge.other) || progress_.moved[std::size_t(edge.other)] < edge.round;
+  }
+
+  BestOfEdge of_edge(std::int32_t v, std::int32_t u) const {
+    return may_be_removed(v) ? BestOfEdge{0, mesh_.cost_of_removal(v, u)} : mesh_.cost(v, u);
   }
 
   /// Of those of v that cost more than that.
   void find_cheapest(std::int32_t v, double more_than = -infinity) {
     CheapestEdge found;
     found.round = progress_.round;
-    for (std::int32_t u : mesh_.neighbours.of(v)) mesh_.prefetch(u);
+    if (!progress_.removes)
+      for (std::int32_t u : mesh_.neighbours.of(v)) mesh_.prefetch(u);
     for (std::int32_t u : mesh_.neighbours.of(v)) {
       if (!owns(v, u)) continue;
-      const BestOfEdge best = mesh_.cost(v, u);
+      const BestOfEdge best = of_edge(v, u);
       if (best.cost > more_than && best.cost < found.cost) found = {best.cost, best.t, u, progress_.round};
     }
     progress_.cheapest[std::size_t(v)] = found;

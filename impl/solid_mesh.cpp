@@ -2,13 +2,6 @@
 
 namespace tetlod {
 
-namespace {
-
-/// Where nothing is lost, short edges first: what the square of a length counts as.
-constexpr double shape_share = 1e-6;
-
-}  // namespace
-
 template <std::size_t m>
 FieldsAsLengths<m>::FieldsAsLengths(const MeshView &original, double diagonal, Job &job) {
   const Span<const Values<m>> values = original.values<m>();
@@ -27,9 +20,10 @@ template <std::size_t m>
 SolidMesh<m>::SolidMesh(SolidInOrder solid, Span<const Values<m>> values, const Values<m> &scales, Job &job)
     : SolidComplex(std::move(solid), job),
       origin(std::move(solid.origin)),
-      vertices_(array_of(points.size(), Vertex(), job)) {
-  for_each(vertices_.size(), job, [&](std::size_t v) {
-    for (std::size_t i = 0; i < m; i++) vertices_[v].lengths[i] = scales[i] * values[std::size_t(origin[v])][i];
+      lengths_(array_of(points.size(), Vector<m>(), job)),
+      quadrics_(array_of(points.size(), Quadric(), job)) {
+  for_each(points.size(), job, [&](std::size_t v) {
+    for (std::size_t i = 0; i < m; i++) lengths_[v][i] = scales[i] * values[std::size_t(origin[v])][i];
   });
   find_quadrics(job);
 }
@@ -39,7 +33,8 @@ SolidMesh<m>::SolidMesh(SolidRemains<m> &&remains, Job &job)
     : SolidComplex(std::move(remains.points), std::move(remains.ranks), std::move(remains.tets),
                    std::move(remains.triangles), remains.measures, job),
       origin(std::move(remains.origin)),
-      vertices_(std::move(remains.vertices)) {}
+      lengths_(std::move(remains.lengths)),
+      quadrics_(std::move(remains.quadrics)) {}
 
 template <std::size_t m>
 SolidRemains<m> SolidMesh<m>::take_remains(Span<const std::int32_t> number, Job &job) {
@@ -48,7 +43,8 @@ SolidRemains<m> SolidMesh<m>::take_remains(Span<const std::int32_t> number, Job 
   keep_where(origin, job, is_left);
   keep_where(points, job, is_left);
   keep_where(ranks, job, is_left);
-  keep_where(vertices_, job, is_left);
+  keep_where(lengths_, job, is_left);
+  keep_where(quadrics_, job, is_left);
   keep_left(tets, number, job);
   keep_left(triangles, number, job);
   SolidRemains<m> remains(job.memory);
@@ -56,7 +52,8 @@ SolidRemains<m> SolidMesh<m>::take_remains(Span<const std::int32_t> number, Job 
   remains.origin = std::move(origin);
   remains.points = std::move(points);
   remains.ranks = std::move(ranks);
-  remains.vertices = std::move(vertices_);
+  remains.lengths = std::move(lengths_);
+  remains.quadrics = std::move(quadrics_);
   remains.tets = std::move(tets);
   remains.triangles = std::move(triangles);
   return remains;
@@ -68,14 +65,14 @@ template <std::size_t m>
 double SolidMesh<m>::weight_of_planes() const {
   constexpr double least = 20, by_share = 3.5, most = 2e4;
   double boundary = 0;
-  for (std::size_t v = 0; v < vertices_.size(); v++) boundary += on_boundary(std::int32_t(v));
-  return std::min(least + by_share * std::pow(double(vertices_.size()) / boundary, 7), most);
+  for (std::size_t v = 0; v < points.size(); v++) boundary += on_boundary(std::int32_t(v));
+  return std::min(least + by_share * std::pow(double(points.size()) / boundary, 7), most);
 }
 
 template <std::size_t m>
 void SolidMesh<m>::find_quadrics(Job &job) {
   const double weight = measures.weight_of_planes = weight_of_planes();
-  job.parallel.for_parts(vertices_.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+  job.parallel.for_parts(points.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
     add_tets(begin, end, job);
     for (std::size_t v = begin; v < end; v++) add_planes(std::int32_t(v), weight);
   });
@@ -92,7 +89,7 @@ void SolidMesh<m>::add_tets(std::size_t begin, std::size_t end, Job &job) {
     const auto normals = upright_normals<m>({place(tet[0]), place(tet[1]), place(tet[2]), place(tet[3])});
     for (const Place &normal : normals)
       for (std::int32_t v : tet)
-        if (is_among(v)) vertices_[std::size_t(v)].quadric.add_square(normal, 1);
+        if (is_among(v)) quadrics_[std::size_t(v)].add_square(normal, 1);
   }
 }
 
@@ -102,7 +99,7 @@ void SolidMesh<m>::add_planes(std::int32_t v, double weight) {
   for (std::int32_t t : triangles_of.of(v)) {
     const Vec3 n = normal(t);
     const double length = glm::length(n);
-    if (length > 0) vertices_[std::size_t(v)].quadric.add_square({n.x / length, n.y / length, n.z / length}, weight);
+    if (length > 0) quadrics_[std::size_t(v)].add_square({n.x / length, n.y / length, n.z / length}, weight);
   }
 }
 
@@ -110,20 +107,19 @@ template <std::size_t m>
 BestOfEdge SolidMesh<m>::cost(std::int32_t v, std::int32_t u) const {
   const auto [stays, gone] = ends_of(v, u);
   if (!may_go(gone) || rank(stays) == Rank::touching) return {0, std::numeric_limits<double>::infinity()};
-  const Vertex &a = vertex(stays), &b = vertex(gone);
+  const Quadric &a = quadric(stays), &b = quadric(gone);
   const Place d = minus(place(gone), place(stays));
-  BestOfEdge best = best_of_edge(a.quadric, b.quadric, d, keeps_place(stays, gone));
-  constexpr std::size_t tets_of_vertex = entry_of(3, 3);
-  best.cost += shape_share * length2(point_of(d)) * (a.quadric.a[tets_of_vertex] + b.quadric.a[tets_of_vertex]);
+  BestOfEdge best = best_of_edge(a, b, d, keeps_place(stays, gone));
+  best.cost += shape_share * length2(point_of(d)) * (a.a[tets_of_vertex] + b.a[tets_of_vertex]);
   return best;
 }
 
 template <std::size_t m>
 void SolidMesh<m>::collapse(const SolidEdge &edge, const Place &to, CollapseRoom &room) {
-  Vertex &stays = vertices_[std::size_t(edge.stays)];
-  stays.quadric = stays.quadric.moved(minus(to, place(edge.stays)));
-  stays.quadric.add(vertex(edge.gone).quadric.moved(minus(to, place(edge.gone))));
-  std::copy(to.begin() + 3, to.end(), stays.lengths.begin());
+  Quadric &stays = quadrics_[std::size_t(edge.stays)];
+  stays = stays.moved(minus(to, place(edge.stays)));
+  stays.add(quadric(edge.gone).moved(minus(to, place(edge.gone))));
+  std::copy(to.begin() + 3, to.end(), lengths_[std::size_t(edge.stays)].begin());
   SolidComplex::collapse(edge, point_of(to), room);
 }
 

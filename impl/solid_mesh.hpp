@@ -6,14 +6,8 @@
 
 namespace tetlod {
 
-/// Of m fields that steer, as all here.
-template <std::size_t m>
-struct SolidVertex {
-  Vector<m> lengths{};  ///< the values as lengths
-  LocalQuadric<3 + m> quadric;
-};
-
-/// The values of fields in units of length: a field's range counts as the diagonal, where its weight is 1.
+/// The values of fields in units of length: a field's range counts as the diagonal, where its weight is 1. Of m fields
+/// that steer, as all here.
 template <std::size_t m>
 struct FieldsAsLengths {
   FieldsAsLengths(const MeshView &original, double diagonal, Job &job);
@@ -39,12 +33,19 @@ std::array<Vector<3 + m>, m> upright_normals(const std::array<Vector<3 + m>, 4> 
 template <std::size_t m>
 struct SolidRemains {
   explicit SolidRemains(Memory &memory)
-      : origin(&memory), points(&memory), ranks(&memory), vertices(&memory), tets(&memory), triangles(&memory) {}
+      : origin(&memory),
+        points(&memory),
+        ranks(&memory),
+        lengths(&memory),
+        quadrics(&memory),
+        tets(&memory),
+        triangles(&memory) {}
   SolidRemains(const SolidRemains &of, Memory &memory)
       : origin(of.origin, &memory),
         points(of.points, &memory),
         ranks(of.ranks, &memory),
-        vertices(of.vertices, &memory),
+        lengths(of.lengths, &memory),
+        quadrics(of.quadrics, &memory),
         tets(of.tets, &memory),
         triangles(of.triangles, &memory),
         measures(of.measures) {}
@@ -65,7 +66,8 @@ struct SolidRemains {
   Array<std::int32_t> origin;
   Array<Vec3> points;
   Array<Rank> ranks;
-  Array<SolidVertex<m>> vertices;
+  Array<Vector<m>> lengths;  ///< the values of each vertex
+  Array<LocalQuadric<3 + m>> quadrics;
   Array<Tet> tets;
   Array<Triangle> triangles;
   SolidMeasures measures;
@@ -76,7 +78,8 @@ struct SolidRemains {
     visit(of.origin);
     visit(of.points);
     visit(of.ranks);
-    visit(of.vertices);
+    visit(of.lengths);
+    visit(of.quadrics);
     visit(of.tets);
     visit(of.triangles);
   }
@@ -86,7 +89,7 @@ template <std::size_t m>
 class SolidMesh : public SolidComplex {
  public:
   using Place = Vector<3 + m>;
-  using Vertex = SolidVertex<m>;
+  using Quadric = LocalQuadric<3 + m>;
 
   /// values: of the original vertices; scales: the length that a unit of each field counts as.
   SolidMesh(SolidInOrder solid, Span<const Values<m>> values, const Values<m> &scales, Job &job);
@@ -99,20 +102,28 @@ class SolidMesh : public SolidComplex {
 
   /// Of collapsing the edge; infinite where neither end may go.
   BestOfEdge cost(std::int32_t v, std::int32_t u) const;
+  /// Of moving v, which is inside, into its neighbour, which keeps place and values; infinite where that may not be.
+  double cost_of_removal(std::int32_t v, std::int32_t into) const {
+    if (!may_go(v) || rank(into) == Rank::touching) return std::numeric_limits<double>::infinity();
+    const Quadric &q = quadric(v);
+    const Place d = minus(place(into), place(v));
+    return q.rise(d) + shape_share * length2(point_of(d)) * q.a[tets_of_vertex];
+  }
 
-  const Vertex &vertex(std::int32_t v) const { return vertices_[std::size_t(v)]; }
+  const Quadric &quadric(std::int32_t v) const { return quadrics_[std::size_t(v)]; }
+  const Vector<m> &lengths(std::int32_t v) const { return lengths_[std::size_t(v)]; }
   /// What costs of its edges are made of comes nearer, all at once.
   void prefetch(std::int32_t v) const {
     constexpr std::size_t line = 64;
-    for (std::size_t at = 0; at < sizeof(Vertex); at += line)
-      __builtin_prefetch(reinterpret_cast<const char *>(&vertex(v)) + at);
+    for (std::size_t at = 0; at < sizeof(Quadric); at += line)
+      __builtin_prefetch(reinterpret_cast<const char *>(&quadric(v)) + at);
     __builtin_prefetch(&point(v));
   }
   /// x, y, z, and the values as lengths.
   Place place(std::int32_t v) const {
     const Vec3 &p = point(v);
     Place place{p.x, p.y, p.z};
-    for (std::size_t i = 0; i < m; i++) place[3 + i] = vertex(v).lengths[i];
+    for (std::size_t i = 0; i < m; i++) place[3 + i] = lengths(v)[i];
     return place;
   }
 
@@ -120,12 +131,18 @@ class SolidMesh : public SolidComplex {
   void collapse(const SolidEdge &edge, const Place &to, CollapseRoom &room);
 
  private:
+  /// Where nothing is lost, short edges first: what the square of a length counts as.
+  static constexpr double shape_share = 1e-6;
+  /// The entry of a quadric that counts the tets a vertex stands for.
+  static constexpr std::size_t tets_of_vertex = entry_of(3, 3);
+
   double weight_of_planes() const;
   void find_quadrics(Job &job);
   void add_tets(std::size_t begin, std::size_t end, Job &job);
   void add_planes(std::int32_t v, double weight);
 
-  Array<Vertex> vertices_;
+  Array<Vector<m>> lengths_;
+  Array<Quadric> quadrics_;
 };
 
 }  // namespace tetlod

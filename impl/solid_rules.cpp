@@ -80,11 +80,7 @@ bool add_spoke(const SolidComplex &mesh, const Side &side, Star &star) {
 }  // namespace
 
 bool look_around(const SolidComplex &mesh, std::int32_t stays, std::int32_t gone, SolidEdge &edge) {
-  edge.stays = stays;
-  edge.gone = gone;
-  edge.stays_tets.clear();
-  edge.gone_tets.clear();
-  edge.edge_tets.clear();
+  edge.begin(stays, gone);
   for (std::int32_t t : mesh.tets_of.of(stays)) {
     if (!mesh.has_tet(t)) continue;
     const bool at_edge = has(mesh.tets[std::size_t(t)], gone);
@@ -93,6 +89,20 @@ bool look_around(const SolidComplex &mesh, std::int32_t stays, std::int32_t gone
   for (std::int32_t t : mesh.tets_of.of(gone))
     if (mesh.has_tet(t) && !has(mesh.tets[std::size_t(t)], stays) && !edge.gone_tets.push(t)) return false;
   return !edge.edge_tets.empty() && !(edge.stays_tets.empty() && edge.gone_tets.empty());
+}
+
+bool look_around_removal(const SolidComplex &mesh, std::int32_t stays, std::int32_t gone, double kept,
+                         SolidEdge &edge) {
+  edge.begin(stays, gone);
+  const Vec3 place = mesh.point(stays);
+  for (std::int32_t t : mesh.tets_of.of(gone)) {
+    if (!mesh.has_tet(t)) continue;
+    const Tet &tet = mesh.tets[std::size_t(t)];
+    if (has(tet, stays) ? !edge.edge_tets.push(t)
+                        : is_flattened(mesh, tet, gone, place, kept) || !edge.gone_tets.push(t))
+      return false;
+  }
+  return true;
 }
 
 bool flattens(const SolidComplex &mesh, const SolidEdge &edge, const Vec3 &place, double kept) {

@@ -9,6 +9,10 @@ namespace tetlod {
 /// The tets around an edge. False where there are too many to bother, or nothing would be left of them.
 bool look_around(const SolidComplex &mesh, std::int32_t stays, std::int32_t gone, SolidEdge &edge);
 
+/// The same of a vertex inside that moves into its neighbour, whose other tets stay as they are. False also where a tet
+/// would be flattened, as below.
+bool look_around_removal(const SolidComplex &mesh, std::int32_t stays, std::int32_t gone, double kept, SolidEdge &edge);
+
 /// A tet would turn over, or be flat and keep less than this part of its shape. Where none does, the links of the ends
 /// share no more than that of the edge [Dey et al. 1999] if they do so in the surface: positive tets in a simple
 /// surface cover each place once.

@@ -6,7 +6,7 @@
 namespace tetlod {
 
 SolidProgress::SolidProgress(std::size_t vertices, std::size_t tets, Job &job)
-    : next_closing(std::int64_t(tets) / 4 * 3),  // soon, as the first rounds are the longest
+    : next_closing(std::int64_t(tets) / 5 * 3),  // where removals end on the way to a fifth; then to a tenth, ...
       cheapest(array_of(vertices, CheapestEdge(), job)),
       moved(array_of(vertices, -1, job)),
       changed(array_of(vertices, 0, job)),
@@ -17,6 +17,9 @@ SolidProgress::SolidProgress(std::size_t vertices, std::size_t tets, Job &job)
 
 SolidProgress::SolidProgress(const SolidProgress &of, Memory &memory)
     : round(of.round),
+      removes(of.removes),
+      last_far(of.last_far),
+      first_near(of.first_near),
       most_waited(of.most_waited),
       largest_target(of.largest_target),
       next_closing(of.next_closing),
@@ -26,6 +29,19 @@ SolidProgress::SolidProgress(const SolidProgress &of, Memory &memory)
       changed(of.changed, &memory),
       home(of.home, &memory),
       into(of.into, &memory) {}
+
+bool SolidProgress::is_far(std::int64_t count, std::int64_t tets) {
+  constexpr std::int64_t far = 3;  // times the tets
+  return count / far >= tets;
+}
+
+void SolidProgress::choose_way(std::int64_t count, std::int64_t tets) {
+  removes = is_far(count, tets);
+  if (removes)
+    last_far = count;
+  else if (first_near == 0)
+    first_near = count;
+}
 
 void SolidProgress::follow(Span<const std::int32_t> origin, std::size_t originals) {
   home.assign(originals, -1);

@@ -36,8 +36,15 @@ struct SolidProgress {
 
   /// For larger targets the round that is done would have been another one.
   void allow(double target) { largest_target = std::min(largest_target, std::int64_t(std::floor(target))); }
+  /// Far from so many tets vertices are removed, near them edges collapse. From here on it is so with `count` tets.
+  void choose_way(std::int64_t count, std::int64_t tets);
+  /// Whether the ways so far were those to so many tets.
+  bool leads_to(std::int64_t tets) const { return is_far(last_far, tets) && !is_far(first_near, tets); }
 
   int round = 0;
+  bool removes = true;                                                     ///< vertices, which costs are of
+  std::int64_t last_far = std::numeric_limits<std::int64_t>::max();        ///< tets, when that was chosen last
+  std::int64_t first_near = 0;                                             ///< tets, when it was not for the first time
   bool most_waited = false;                                                ///< in the round before
   std::int64_t largest_target = std::numeric_limits<std::int64_t>::max();  ///< up to it the rounds so far are the same
   std::int64_t next_closing = 0;                                           ///< with fewer tets, gaps are closed
@@ -47,6 +54,9 @@ struct SolidProgress {
   Array<std::int32_t> changed;  ///< whose edges cost something else than they did
   Array<std::int32_t> home;     ///< of each original vertex, the one it had become when gaps were closed last, or -1
   Array<std::int32_t> into;     ///< of each vertex, the one that it has collapsed into since, or itself
+
+ private:
+  static bool is_far(std::int64_t count, std::int64_t tets);
 };
 
 template <std::size_t m>
@@ -80,7 +90,9 @@ class SolidHistory {
   const SolidState<m> *before(std::int64_t target, std::int64_t tets, Memory &memory) {
     const SolidState<m> *last = nullptr;
     for (const SolidState<m> &state : states<m>(memory))
-      if (target <= state.progress.largest_target && std::int64_t(state.remains.tets.size()) >= tets) last = &state;
+      if (target <= state.progress.largest_target && state.progress.leads_to(std::max(target, tets)) &&
+          std::int64_t(state.remains.tets.size()) >= tets)
+        last = &state;
     return last;
   }
 

@@ -1,6 +1,7 @@
 // A list for every vertex, of the simplices that have it or of its neighbours, while vertices merge.
 #pragma once
 #include <algorithm>
+#include <numeric>
 
 #include "whole_arrays.hpp"
 
@@ -36,13 +37,13 @@ class StarLists {
  public:
   /// Empty lists.
   StarLists(std::size_t vertices, Job &job)
-      : begin_(vertices, nullptr, &job.memory), count_(vertices, 0, &job.memory), items_(&job.memory) {}
+      : begin_(vertices, nullptr, &job.memory), count_(vertices, 0, &job.memory), pieces_(&job.memory) {}
   StarLists(StarLists &&) = default;
   StarLists &operator=(StarLists &&) = default;
 
   /// Lists with room for so many entries, to be set.
   StarLists(Array<std::uint32_t> &&entries, Job &job)
-      : begin_(entries.size(), nullptr, &job.memory), count_(std::move(entries)), items_(&job.memory) {
+      : begin_(entries.size(), nullptr, &job.memory), count_(std::move(entries)), pieces_(&job.memory) {
     give_room(job);
   }
 
@@ -76,20 +77,30 @@ class StarLists {
   }
 
   /// Of the lists that lie side by side.
-  std::size_t room() const { return items_.size(); }
+  std::size_t room() const {
+    std::size_t sum = 0;
+    for (const Array<std::int32_t> &piece : pieces_) sum += piece.size();
+    return sum;
+  }
 
-  /// Side by side again; what lists have taken of a room is given back by who cleared it.
+  /// Side by side again, a piece after the other, which takes little memory; what lists have taken of a room is given
+  /// back by who cleared it.
   void compact(Job &job) {
-    const Array<std::size_t> places = beginnings(job);
-    Array<std::int32_t> items(&job.memory);
-    grow(items, places.back(), job);
-    for_lists(places, job, [&](std::size_t v, std::size_t place) {
-      begin_[v] = std::copy(begin_[v], begin_[v] + count_[v], items.data() + place) - count_[v];
+    for_pieces(job, [&](Array<std::int32_t> &piece, std::size_t begin, std::size_t end) {
+      Array<std::int32_t> items(entries(begin, end), &job.memory);
+      std::int32_t *place = items.data();
+      for (std::size_t v = begin; v < end; v++) {
+        std::int32_t *const list = place;
+        place = std::copy(begin_[v], begin_[v] + count_[v], place);
+        begin_[v] = list;
+      }
+      piece = std::move(items);
     });
-    items_ = std::move(items);
   }
 
  private:
+  static constexpr std::size_t vertices_of_piece = 4096;
+
   /// visit(vertex, simplex) for every corner: of one vertex one after another, of several at the same time.
   template <std::size_t corners, class Visit>
   void for_corners(Span<const std::array<std::int32_t, corners>> simplices, Job &job, const Visit &visit) const {
@@ -104,26 +115,28 @@ class StarLists {
   }
 
   void give_room(Job &job) {
-    const Array<std::size_t> places = beginnings(job);
-    grow(items_, places.back(), job);
-    for_lists(places, job, [&](std::size_t v, std::size_t place) { begin_[v] = items_.data() + place; });
-  }
-
-  Array<std::size_t> beginnings(Job &job) const {
-    return tetlod::beginnings(count_.size(), job, [&](std::size_t v) { return count_[v]; });
-  }
-
-  /// visit(vertex, place of its list), of lists that lie side by side from the beginnings on.
-  template <class Visit>
-  void for_lists(Span<const std::size_t> beginnings, Job &job, const Visit &visit) const {
-    job.parallel.for_blocks(count_.size(), stretch, [&](std::size_t begin, std::size_t end) {
-      std::size_t place = beginnings[begin / stretch];
+    pieces_.resize(count_.size() / vertices_of_piece + 1);
+    for_pieces(job, [&](Array<std::int32_t> &piece, std::size_t begin, std::size_t end) {
+      piece.resize(entries(begin, end));
+      std::int32_t *place = piece.data();
       for (std::size_t v = begin; v < end; v++) {
-        visit(v, place);
+        begin_[v] = place;
         place += count_[v];
       }
+    });
+  }
+
+  /// visit(piece, begin, end of its vertices).
+  template <class Visit>
+  void for_pieces(Job &job, const Visit &visit) {
+    job.parallel.for_blocks(count_.size(), vertices_of_piece, [&](std::size_t begin, std::size_t end) {
+      visit(pieces_[begin / vertices_of_piece], begin, end);
       job.poll(0);
     });
+  }
+
+  std::size_t entries(std::size_t begin, std::size_t end) const {
+    return std::accumulate(count_.data() + begin, count_.data() + end, std::size_t(0));
   }
 
   std::int32_t *find(std::int32_t v, std::int32_t entry) {
@@ -132,7 +145,7 @@ class StarLists {
 
   Array<std::int32_t *> begin_;
   Array<std::uint32_t> count_;
-  Array<std::int32_t> items_;
+  Array<Array<std::int32_t>> pieces_;
 };
 
 }  // namespace tetlod

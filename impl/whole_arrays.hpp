@@ -3,7 +3,6 @@
 #pragma once
 #include <algorithm>
 #include <cstdint>
-#include <numeric>
 
 #include "job.hpp"
 #include "mesh.hpp"
@@ -61,16 +60,6 @@ Array<T> parts_of(std::size_t count, const T &none, Job &job, const Add &add) {
     job.poll(0);
   });
   return parts;
-}
-
-/// Where each stretch of `count` items begins when item i takes size_of(i), and, at the end, what all take.
-template <class SizeOf>
-Array<std::size_t> beginnings(std::size_t count, Job &job, const SizeOf &size_of) {
-  Array<std::size_t> begin =
-      parts_of(count, std::size_t(0), job, [&](std::size_t &sum, std::size_t i) { sum += size_of(i); });
-  begin.insert(begin.begin(), 0);
-  std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  return begin;
 }
 
 /// Unlike shrink_to_fit, this fails where there is no memory.

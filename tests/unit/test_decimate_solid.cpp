@@ -288,7 +288,7 @@ void flip_pairs(Mesh &mesh) {
 }
 
 TEST_F(DecimateSolid, WhatItAdmitsSatisfiesTheLinkCondition) {
-  int admitted = 0, of_boundary = 0, refused = 0;
+  int admitted = 0, of_boundary = 0, removed = 0, refused = 0;
   std::vector<Mesh> meshes = {kuhn_cube(1), kuhn_cube(3), kuhn_solid({4, 1, 1}, [](const Cell &) { return true; })};
   meshes.push_back(kuhn_solid({3, 3, 1}, [](const Cell &c) { return c[0] != 1 || c[1] != 1; }));  // a ring
   meshes.push_back(kuhn_solid({3, 3, 3}, [](const Cell &c) { return c != Cell{1, 1, 1}; }));      // a shell
@@ -309,12 +309,17 @@ TEST_F(DecimateSolid, WhatItAdmitsSatisfiesTheLinkCondition) {
     for (std::int32_t a = 0; a < std::int32_t(solid.points.size()); a++)
       for (std::int32_t b : solid.neighbours.of(a)) {
         if (solid.rank(b) > solid.rank(a)) continue;
-        SolidEdge edge;
+        SolidEdge edge, of_removal;
         Star star(host.memory);
         const Vec3 &place = solid.point(a);
         const bool on_boundary = solid.on_boundary(b);
-        const bool admits = look_around(solid, a, b, edge) && !flattens(solid, edge, place, 0.7) &&
-                            (!on_boundary || (look_around_on_boundary(solid, edge, place, star) && !folds(star)));
+        const bool keeps_tets = look_around(solid, a, b, edge) && !flattens(solid, edge, place, 0.7);
+        if (!on_boundary) {
+          EXPECT_EQ(look_around_removal(solid, a, b, 0.7, of_removal), keeps_tets) << "edge " << a << " " << b;
+          removed += keeps_tets;
+        }
+        const bool admits =
+            keeps_tets && (!on_boundary || (look_around_on_boundary(solid, edge, place, star) && !folds(star)));
         EXPECT_TRUE(!admits || satisfies_link_condition(maximal, a, b)) << "edge " << a << " " << b;
         (admits ? admitted : refused)++;
         of_boundary += admits && on_boundary;
@@ -322,6 +327,7 @@ TEST_F(DecimateSolid, WhatItAdmitsSatisfiesTheLinkCondition) {
   }
   EXPECT_GT(admitted, 100);
   EXPECT_GT(of_boundary, 100);
+  EXPECT_GT(removed, 100);
   EXPECT_GT(refused, 100);
 }
 

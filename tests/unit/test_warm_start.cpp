@@ -57,7 +57,7 @@ class WarmStart : public DecimateSolid {
 };
 
 TEST_F(WarmStart, QuadricsAreThoseOfTheOriginal) {
-  start_with_front(6, 0.6);
+  start_with_front(8, 0.6);
   transform(original, [](const Vec3 &p) { return p + 0.05 * Vec3(std::sin(7 * p.y), 0, std::sin(6 * p.x)); });
   start_with(original);
   SolidHistory history(host.memory);
@@ -73,10 +73,10 @@ TEST_F(WarmStart, QuadricsAreThoseOfTheOriginal) {
     const double error = renew_quadrics<1>(original.view(), boundary, fields, state.progress.home, host.job, remains);
     double sum = 0;
     for (std::size_t v = 0; v < remains.points.size(); v++) {
-      const double length = remains.vertices[v].lengths[0];
+      const double length = remains.lengths[v][0];
       const double at = squared_error(state, fields, std::int32_t(v), length);
       sum += at;
-      const LocalQuadric<4> &quadric = remains.vertices[v].quadric;
+      const LocalQuadric<4> &quadric = remains.quadrics[v];
       for (double step : {0.01, -0.02}) {
         const double change = squared_error(state, fields, std::int32_t(v), length + step) - at;
         EXPECT_NEAR(quadric.a.back() * step * step + 2 * quadric.g[3] * step, change, 1e-9);

@@ -46,10 +46,11 @@ TEST_P(WholeArrays, PartsAddUp) {
     const auto sum = [&](std::size_t begin, std::size_t end) {
       return std::accumulate(numbers.begin() + std::ptrdiff_t(begin), numbers.begin() + std::ptrdiff_t(end), 0l);
     };
-    const Array<std::size_t> begin = beginnings(size, host.job, [&](std::size_t i) { return std::size_t(numbers[i]); });
-    for (std::size_t i = 0; i < begin.size(); i++)
-      ASSERT_EQ(std::int64_t(begin[i]), sum(0, std::min(size, i * stretch))) << size << ' ' << i;
-    ASSERT_EQ(std::int64_t(begin.back()), sum(0, size)) << size;
+    const Array<std::int64_t> parts =
+        parts_of(size, std::int64_t(0), host.job, [&](std::int64_t &part, std::size_t i) { part += numbers[i]; });
+    ASSERT_EQ(parts.size(), size / stretch + 1);
+    for (std::size_t i = 0; i < parts.size(); i++)
+      ASSERT_EQ(parts[i], sum(std::min(size, i * stretch), std::min(size, (i + 1) * stretch))) << size << ' ' << i;
   }
 }
 

@@ -1,0 +1,98 @@
+// Where the vertex comes to be that a collapse leaves, and whether it may.
+#pragma once
+#include "solid_mesh.hpp"
+#include "solid_rules.hpp"
+
+namespace tetlod {
+
+template <std::size_t m>
+struct SolidCollapse {
+  explicit SolidCollapse(Memory &memory) : star(memory) {}
+  SolidEdge edge;
+  Vector<3 + m> place{};
+  std::int32_t found_at = -1;  ///< the end whose cheapest edge it is
+  bool of_boundary = false;
+  Star star;  ///< of the boundary
+};
+
+template <std::size_t m>
+class SolidPlaces {
+ public:
+  using Place = Vector<3 + m>;
+
+  /// holds_bound: what is flat gets no flatter. boundary_vertices: of the original.
+  SolidPlaces(const SolidMesh<m> &mesh, bool holds_bound, std::size_t boundary_vertices)
+      : mesh_(mesh),
+        kept_of_flat_(holds_bound ? 1 : kept_of_flat),
+        kept_of_sliver_(holds_bound ? 1 : kept_of_sliver),
+        volume_of_collapse_(volume_to_lose * mesh.measures.volume / double(boundary_vertices)) {}
+
+  /// An edge that was found at v collapses to the best place near it, or, where that is not admissible, to the best
+  /// along it, at t.
+  bool find(std::int32_t v, std::int32_t u, double t, SolidCollapse<m> &collapse) const {
+    const auto [stays, gone] = mesh_.ends_of(v, u);
+    collapse.found_at = v;
+    collapse.of_boundary = mesh_.on_boundary(gone);
+    return look_around(mesh_, stays, gone, collapse.edge) && find_place(t, collapse);
+  }
+
+  /// v, which is inside, moves into its neighbour.
+  bool find_removal(std::int32_t v, std::int32_t into, SolidCollapse<m> &collapse) const {
+    collapse.found_at = v;
+    collapse.of_boundary = false;
+    collapse.place = mesh_.place(into);
+    return look_around_removal(mesh_, into, v, kept_of_flat_, collapse.edge);
+  }
+
+ private:
+  /// Of the volume, that the boundary may lose.
+  static constexpr double volume_to_lose = 0.01;
+  /// What tets that are flat have to keep of their shape, and slivers of the boundary of their quality. In a graded
+  /// mesh most tets are flat; on walls that are stretched all triangles are slivers, as good as each other but for a
+  /// little. Nothing could go there without making some worse.
+  static constexpr double kept_of_flat = 0.7, kept_of_sliver = 0.999;
+  /// A best place further off than this part of the edge is none.
+  static constexpr double longest_step = 0.5;
+
+  bool find_place(double t, SolidCollapse<m> &collapse) const {
+    const SolidEdge &edge = collapse.edge;
+    const Place stays = mesh_.place(edge.stays), gone = mesh_.place(edge.gone);
+    const Place d = minus(gone, stays), best = along(stays, t, d);
+    StepConstraint constraint;
+    if (collapse.of_boundary) constraint = keeping_volume(mesh_, edge, point_of(best));
+    if (!mesh_.keeps_place(edge.stays, edge.gone)) {
+      LocalQuadric<3 + m> sum = mesh_.quadric(edge.stays).moved(minus(best, stays));
+      sum.add(mesh_.quadric(edge.gone).moved(minus(best, gone)));
+      Place step;
+      if (step_to_least(sum, constraint, step) && is_short(step, d) && keeps_volume(constraint, step) &&
+          suits(along(best, 1, step), collapse))
+        return true;
+    }
+    return keeps_volume(constraint, {}) && suits(best, collapse);
+  }
+
+  bool keeps_volume(const StepConstraint &constraint, const Place &step) const {
+    return constraint.missed_by(point_of(step)) / 6 <= volume_of_collapse_;
+  }
+
+  static bool is_short(const Place &step, const Place &edge) {
+    return length2(point_of(step)) <= longest_step * longest_step * length2(point_of(edge));
+  }
+
+  bool suits(const Place &place, SolidCollapse<m> &collapse) const {
+    collapse.place = place;
+    return !flattens(mesh_, collapse.edge, point_of(place), kept_of_flat_) &&
+           (!collapse.of_boundary || suits_boundary(collapse));
+  }
+
+  bool suits_boundary(SolidCollapse<m> &collapse) const {
+    Star &star = collapse.star;
+    return look_around_on_boundary(mesh_, collapse.edge, point_of(collapse.place), star) && !turns_too_far(star) &&
+           !folds(star) && !makes_sliver(star, kept_of_sliver_);
+  }
+
+  const SolidMesh<m> &mesh_;
+  double kept_of_flat_, kept_of_sliver_, volume_of_collapse_;
+};
+
+}  // namespace tetlod
