@@ -160,7 +160,7 @@ class Locator {
   /// How many tets are one item of the tree. Those side by side in memory are so in space, mostly; and of many tets,
   /// few points go down the tree. No two blocks have tets of one item.
   static std::size_t tets_an_item(std::size_t tets) {
-    constexpr std::size_t most_items = 100000;
+    constexpr std::size_t most_items = 20000;
     std::size_t together = 1;
     while (together < block && tets > together * most_items) together *= 2;
     return together;
