@@ -330,8 +330,7 @@ enum {
                                    that it needs; 0, the default: none. Where it cannot be held: TETLOD_ERR_MAX_ERROR */
   TETLOD_OPT_MAX_DEVIATION = 23, /* real, "max-deviation": bound of the distance between the boundaries of original and
                                    result, at vertices and middles of edges and triangles of both, as a fraction of the
-                                   diagonal; more of the boundary is kept than asked for. Of triangles that are divided
-                                   for the field's sake, at the new vertices alone. 0, the default: none */
+                                   diagonal; more of the boundary is kept than asked for. 0, the default: none */
   TETLOD_OPT_WARM_START = 24 /* real, "warm-start": edges collapse from what an earlier run with other values left, if
                                 by estimate the RMS error grows by no more than this part; 0, the default: not */
 };
