@@ -94,7 +94,7 @@ class SolidDecimator {
   double cost() const { return progress_.cost; }  ///< of the collapses
 
  private:
-  /// Tets that it is certain to come to.
+  /// Tets that it comes to, unless nothing is admissible; the way depends on them.
   std::int64_t size() const { return std::max(options_.tets, options_.enough); }
 
   /// Rounds of a vertex none of whose edges is admissible, and of one that is looked at again after the round.

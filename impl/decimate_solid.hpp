@@ -1,7 +1,7 @@
 // Past the paper: a coarse mesh by collapsing edges of the original, inner ones and those of the boundary alike, where
 // that loses least of the field [Garland and Zhou 2005]; in rounds, each of many collapses that are apart. Far from the
-// size a vertex inside just moves into a neighbour, which is soon found and loses no more in the end; near it the vertex
-// that is left comes to the best place.
+// size a vertex inside just moves into a neighbour, which is soon found and loses no more in the end; near it the
+// vertex that is left comes to the best place.
 #pragma once
 #include "extract_boundary.hpp"
 #include "job.hpp"
