@@ -229,6 +229,7 @@ class SolidDecimator {
     if (last_is_no_finer()) return;
     if (progress_.follows() ? remains.tets.size() > remains.measures.tets / 2 : raises_peak(remains)) return;
     remains.give_spare_back();
+    job_.poll(0);  // each of both copies large arrays
     states_->push_back({SolidRemains<m>(remains, job_.memory), SolidProgress(progress_, job_.memory)});
   }
 
