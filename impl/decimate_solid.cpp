@@ -100,8 +100,6 @@ class SolidDecimator {
   /// Rounds of a vertex none of whose edges is admissible, and of one that is looked at again after the round.
   static constexpr int stuck = -2, waiting = -3;
 
-  using Place = Vector<3 + m>;
-
   /// What a block does in a round.
   struct Work {
     explicit Work(Memory &memory) : items(&memory), changed(&memory), collapse(memory) {}
@@ -127,17 +125,17 @@ class SolidDecimator {
   double limit_of_round() {
     choose_way();
     costs_.find_changed(job_);
-    const double most = (progress_.removes ? part_of_removals : part_of_round) * double(left_.size()),
+    const double most = (progress_.removes() ? part_of_removals : part_of_round) * double(left_.size()),
                  needed = 1 + double(count_ - options_.tets) / tets_a_collapse;
     progress_.allow(double(count_) - most * tets_a_collapse);
     return costs_.of_cheapest(std::size_t(std::min(most, needed)), left_, job_.memory);
   }
 
-  /// The costs that are known are those of the way.
+  /// What edges are known to cost is of one way alone.
   void choose_way() {
-    const bool removed = progress_.removes;
+    const bool removed = progress_.removes();
     progress_.choose_way(count_, size());
-    if (progress_.removes != removed) progress_.changed = left_;
+    if (progress_.removes() != removed) progress_.changed = left_;
   }
 
   void collapse_some(double limit) {
@@ -225,7 +223,7 @@ class SolidDecimator {
     const auto last_is_no_finer = [&] {
       return !states_->empty() && states_->back().remains.tets.size() <= remains.tets.size();
     };
-    while (progress_.removes && last_is_no_finer() && !states_->back().progress.removes) states_->pop_back();
+    while (progress_.removes() && last_is_no_finer() && !states_->back().progress.removes()) states_->pop_back();
     if (last_is_no_finer()) return;
     if (progress_.follows() ? remains.tets.size() > remains.measures.tets / 2 : raises_peak(remains)) return;
     remains.give_spare_back();

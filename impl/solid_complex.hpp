@@ -34,7 +34,7 @@ inline Array<std::int32_t> numbers_of(Span<const std::int32_t> left, std::size_t
 /// An edge with the tets around it, those at the edge apart.
 struct SolidEdge {
   std::int32_t stays, gone;
-  Few<std::int32_t, 2 * largest_cavity> stays_tets;  ///< none where that end keeps its place
+  Few<std::int32_t, 2 * largest_cavity> stays_tets;  ///< not looked for where a vertex is removed
   Few<std::int32_t, 2 * largest_cavity> gone_tets;
   Cavity edge_tets;
 

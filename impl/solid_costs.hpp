@@ -12,7 +12,7 @@ class SolidCosts {
   SolidCosts(const SolidMesh<m> &mesh, SolidProgress &progress) : mesh_(mesh), progress_(progress) {}
 
   /// Whether v is looked at as one that moves into a neighbour.
-  bool may_be_removed(std::int32_t v) const { return progress_.removes && !mesh_.on_boundary(v); }
+  bool may_be_removed(std::int32_t v) const { return progress_.removes() && !mesh_.on_boundary(v); }
 
   /// An edge is looked at from one end, the one that moved last; the removal of a vertex from itself.
   bool owns(std::int32_t v, std::int32_t u) const {
@@ -36,7 +36,7 @@ class SolidCosts {
   void find_cheapest(std::int32_t v, double more_than = -infinity) {
     CheapestEdge found;
     found.round = progress_.round;
-    if (!progress_.removes)
+    if (!progress_.removes())
       for (std::int32_t u : mesh_.neighbours.of(v)) mesh_.prefetch(u);
     for (std::int32_t u : mesh_.neighbours.of(v)) {
       if (!owns(v, u)) continue;

@@ -17,7 +17,6 @@ SolidProgress::SolidProgress(std::size_t vertices, std::size_t tets, Job &job)
 
 SolidProgress::SolidProgress(const SolidProgress &of, Memory &memory)
     : round(of.round),
-      removes(of.removes),
       last_far(of.last_far),
       first_near(of.first_near),
       most_waited(of.most_waited),
@@ -36,10 +35,9 @@ bool SolidProgress::is_far(std::int64_t count, std::int64_t tets) {
 }
 
 void SolidProgress::choose_way(std::int64_t count, std::int64_t tets) {
-  removes = is_far(count, tets);
-  if (removes)
+  if (is_far(count, tets))
     last_far = count;
-  else if (first_near == 0)
+  else if (removes())
     first_near = count;
 }
 

@@ -38,11 +38,12 @@ struct SolidProgress {
   void allow(double target) { largest_target = std::min(largest_target, std::int64_t(std::floor(target))); }
   /// Far from so many tets vertices are removed, near them edges collapse. From here on it is so with `count` tets.
   void choose_way(std::int64_t count, std::int64_t tets);
+  /// Vertices, which costs are of.
+  bool removes() const { return first_near == 0; }
   /// Whether the ways so far were those to so many tets.
   bool leads_to(std::int64_t tets) const { return is_far(last_far, tets) && !is_far(first_near, tets); }
 
   int round = 0;
-  bool removes = true;                                                     ///< vertices, which costs are of
   std::int64_t last_far = std::numeric_limits<std::int64_t>::max();        ///< tets, when that was chosen last
   std::int64_t first_near = 0;                                             ///< tets, when it was not for the first time
   bool most_waited = false;                                                ///< in the round before
