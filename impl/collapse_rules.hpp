@@ -51,7 +51,8 @@ struct SurfaceNow {
   Span<const std::int32_t> id;     ///< of each cut vertex
 };
 
-/// The ring passes twice through one point of the uncut surface: two edges of the star would be one.
+/// The ring passes twice through one point of the uncut surface: two edges of the star would be one. The link
+/// condition, where the surface is not cut.
 bool pinches_ring(const Star &star);
 /// A triangle's normal turns further than is likely on a smooth surface, or flips.
 bool turns_too_far(const Star &star);

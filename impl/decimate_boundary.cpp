@@ -43,7 +43,8 @@ class Decimator {
         charge_(job.memory, openmesh_bytes_a_triangle * surface.triangles.size()),
         queue_(3 * surface.triangles.size() / 2, job.memory) {
     copy_vertices(topology, locked);
-    copy_connectivity(topology);
+    copy_connectivity(topology, job, mesh_);
+    copy_triangles(topology);
     for (std::size_t v = 0; v < point_.size(); v++) update_sums(VertexHandle(int(v)));
     if (options.max_deviation > 0) deviation_.emplace(surface, options.max_deviation, job);
     if (options.sees_fields()) quadrics_.find(options.field_weight, triangle_, point_, values_);
@@ -97,35 +98,10 @@ class Decimator {
     link_.resize(count);
   }
 
-  /// Straight from the mates: OpenMesh's add_face would search and, on what it does not like, print.
-  void copy_connectivity(const SurfaceTopology &topology) {
-    mesh_.request_vertex_status();
-    mesh_.request_halfedge_status();
-    mesh_.request_edge_status();
-    mesh_.request_face_status();
-    mesh_.reserve(point_.size(), topology.mate.size() / 2, surface_.triangles.size());
-    for (std::size_t v = 0; v < point_.size(); v++) mesh_.new_vertex();
-    Array<std::int32_t> halfedge(topology.mate.size(), -1, &job_.memory);
-    for (std::size_t h = 0; h < halfedge.size(); h++) {
-      const auto mate = std::size_t(topology.mate[h]);
-      if (mate < h) continue;
-      const VertexHandle from(topology.sheet_vertex[h]), to(topology.sheet_vertex[mate]);
-      const HalfedgeHandle made = mesh_.new_edge(from, to);
-      halfedge[h] = made.idx();
-      halfedge[mate] = mesh_.opposite_halfedge_handle(made).idx();
-    }
+  void copy_triangles(const SurfaceTopology &topology) {
     for (std::size_t t = 0; t < surface_.triangles.size(); t++) {
-      if (t % 16384 == 0) job_.poll(0);
-      const OpenMesh::FaceHandle face = mesh_.new_face();
       Triangle vertices{};
-      for (std::size_t k = 0; k < 3; k++) {
-        const HalfedgeHandle h(halfedge[3 * t + k]);
-        mesh_.set_face_handle(h, face);
-        mesh_.set_next_halfedge_handle(h, HalfedgeHandle(halfedge[3 * t + (k + 1) % 3]));
-        vertices[k] = topology.sheet_vertex[3 * t + k];
-        mesh_.set_halfedge_handle(VertexHandle(vertices[k]), h);
-      }
-      mesh_.set_halfedge_handle(face, HalfedgeHandle(halfedge[3 * t]));
+      for (std::size_t k = 0; k < 3; k++) vertices[k] = topology.sheet_vertex[3 * t + k];
       triangle_.push_back(vertices);
       plane_.push_back(plane_of(point(vertices[0]), point(vertices[1]), point(vertices[2])));
     }
@@ -165,13 +141,20 @@ class Decimator {
     double cost;
   };
 
+  LinkSums link_of(HalfedgeHandle h) const {
+    const HalfedgeHandle o = mesh_.opposite_halfedge_handle(h);
+    const VertexHandle from = mesh_.from_vertex_handle(h), to = mesh_.to_vertex_handle(h);
+    LinkSums link = at(link_, from);
+    link.add(at(link_, to));
+    for (VertexHandle v : {from, to, apex(mesh_, h), apex(mesh_, o)}) link.add(point(v), -1);
+    return link;
+  }
+
   Placement place(HalfedgeHandle h) const {
     const HalfedgeHandle o = mesh_.opposite_halfedge_handle(h);
     const VertexHandle from = mesh_.from_vertex_handle(h), to = mesh_.to_vertex_handle(h);
     const double length2_e = length2(point(to) - point(from));
-    LinkSums link = at(link_, from);
-    link.add(at(link_, to));
-    for (VertexHandle v : {from, to, apex(mesh_, h), apex(mesh_, o)}) link.add(point(v), -1);
+    const LinkSums link = link_of(h);
     VolumeSums volume = at(volume_, from);
     volume.add(at(volume_, to));
     for (HalfedgeHandle side : {h, o}) volume.add(at(plane_, mesh_.face_handle(side)), -1);
@@ -195,7 +178,23 @@ class Decimator {
     } else if (!place_by_quadric(quadric, volume, x)) {
       return {point(to), mean, std::numeric_limits<double>::infinity()};
     }
-    return {{x[0], x[1], x[2]}, quadrics_.values_of(x), collapse_cost(quadric, x, link, length2_e)};
+    return {{x[0], x[1], x[2]}, quadrics_.values_of(x), collapse_cost(quadric(x), x, link, length2_e)};
+  }
+
+  /// Where both ends may move, of the best place along the edge, which is known sooner than the best of all.
+  double cost_in_field(HalfedgeHandle h) const {
+    const VertexHandle from = mesh_.from_vertex_handle(h), to = mesh_.to_vertex_handle(h);
+    if (at(locked_, from) || at(locked_, to)) return place(h).cost;
+    Vector<3 + m> x;
+    const double least =
+        least_along_edge(quadrics_.of_edge(from.idx(), to.idx()), quadrics_.with_values(point(from), at(values_, from)),
+                         quadrics_.with_values(point(to), at(values_, to)), x);
+    return collapse_cost(least, x, link_of(h), length2(point(to) - point(from)));
+  }
+
+  double cost(HalfedgeHandle h) const {
+    if (by_length_) return length2(point(mesh_.to_vertex_handle(h)) - point(mesh_.from_vertex_handle(h)));
+    return quadrics_.empty() ? place(h).cost : cost_in_field(h);
   }
 
   void update_cost(OpenMesh::EdgeHandle edge) {
@@ -206,9 +205,9 @@ class Decimator {
       queue_.remove(edge.idx());  // it may have been there before a collapse gave it its second fixed end
       return;
     }
-    const double cost = by_length_ ? length2(point(to) - point(from)) : place(h).cost;
-    if (std::isfinite(cost))
-      queue_.set(edge.idx(), cost);
+    const double now = cost(h);
+    if (std::isfinite(now))
+      queue_.set(edge.idx(), now);
     else
       queue_.remove(edge.idx());
   }
@@ -222,10 +221,11 @@ class Decimator {
 
   // ---- Admissibility
 
-  /// The link condition, and no pillow of two triangles: the surface stays a manifold of the same topology.
-  bool breaks_topology(HalfedgeHandle h) {
+  /// No pillow of two triangles: with the link condition (pinches_ring), the surface stays a manifold of the same
+  /// topology.
+  bool leaves_pillow(HalfedgeHandle h) const {
     const HalfedgeHandle o = mesh_.opposite_halfedge_handle(h);
-    return at(link_, apex(mesh_, h)).count <= 3 || at(link_, apex(mesh_, o)).count <= 3 || !mesh_.is_collapse_ok(h);
+    return at(link_, apex(mesh_, h)).count <= 3 || at(link_, apex(mesh_, o)).count <= 3;
   }
 
   /// `to`, where the surface touches itself, would get an edge that another sheet has or may get: to a vertex that is
@@ -283,7 +283,7 @@ class Decimator {
     if (at(locked_, mesh_.from_vertex_handle(h))) h = mesh_.opposite_halfedge_handle(h);
     const Placement placement = place(h);
     if (!std::isfinite(placement.cost)) return;
-    if (breaks_topology(h) || joins_sheets(h) || !look_around(h, placement.point)) return;
+    if (leaves_pillow(h) || joins_sheets(h) || !look_around(h, placement.point)) return;
     if (pinches_ring(star_) || turns_too_far(star_) || folds(star_) || makes_sliver(star_)) return;
     if (deviation_ && deviation_->is_passed(star_)) return;
     if (careful_ && crosses_surface(star_, {tree_, point_, triangle_, id_})) return;
@@ -308,7 +308,7 @@ class Decimator {
       for (HalfedgeHandle gone : {side, next, mesh_.next_halfedge_handle(next)})
         queue_.remove(mesh_.edge_handle(gone).idx());
     }
-    mesh_.collapse(h);
+    collapse_edge(h, mesh_);
     if (deviation_) deviation_->move_on(star_);
     edges_ -= 3;
     update_around(to);

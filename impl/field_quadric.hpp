@@ -89,12 +89,28 @@ bool place_by_quadric(const FieldQuadric<n> &quadric, const VolumeSums &volume, 
   return std::isfinite(sum);
 }
 
+/// The quadric's least between a and b, and where it is.
+template <std::size_t n>
+double least_along_edge(const FieldQuadric<n> &quadric, const Vector<n> &a, const Vector<n> &b, Vector<n> &x) {
+  Vector<n> half;
+  for (std::size_t k = 0; k < n; k++) {
+    x[k] = 0.5 * a[k] + 0.5 * b[k];
+    half[k] = 0.5 * b[k] - 0.5 * a[k];
+  }
+  const Vector<n> image = quadric.times(x);
+  const double bend = dot(half, quadric.times(half)), slope = dot(half, image) + dot(half, quadric.b);
+  const double t = bend > 0 ? std::clamp(-slope / bend, -1.0, 1.0) : 0;
+  const double at_middle = dot(x, image) + 2 * dot(quadric.b, x) + quadric.c;
+  for (std::size_t k = 0; k < n; k++) x[k] += t * half[k];
+  return at_middle + t * (2 * slope + t * bend);
+}
+
 /// What the cost of shape counts beside a quadric's: it decides where that is nothing, on plane walls with a linear
 /// field.
 template <std::size_t n>
-double collapse_cost(const FieldQuadric<n> &quadric, const Vector<n> &x, const LinkSums &link, double length2_e) {
+double collapse_cost(double of_quadric, const Vector<n> &x, const LinkSums &link, double length2_e) {
   constexpr double shape_share = 1e-5;
-  return std::max(quadric(x), 0.0) + shape_share * collapse_cost(link, {x[0], x[1], x[2]}, length2_e);
+  return std::max(of_quadric, 0.0) + shape_share * collapse_cost(link, {x[0], x[1], x[2]}, length2_e);
 }
 
 /// The quadrics of the vertices of a surface, and the weights of its values.
