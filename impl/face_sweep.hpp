@@ -12,6 +12,7 @@ namespace tetlod {
 struct FaceUse {
   std::int32_t middle, high;  ///< the two other vertices
   std::uint32_t use;          ///< 4 t + k: the face of tet t opposite its corner k
+  std::uint64_t others() const { return std::uint64_t(middle) << 32 | std::uint32_t(high); }
   std::size_t tet() const { return use / 4; }
   std::size_t corner() const { return use % 4; }
 };
@@ -69,12 +70,12 @@ class FaceSweep {
 
   template <class Visit>
   static void visit_bucket(std::size_t chunk, std::int32_t low, FaceUse *first, FaceUse *last, const Visit &visit) {
-    std::sort(first, last, [](const FaceUse &a, const FaceUse &b) {
-      return a.middle != b.middle ? a.middle < b.middle : a.high != b.high ? a.high < b.high : a.use < b.use;
+    std::sort(first, last, [](const FaceUse &a, const FaceUse &b) {  // one branch, for none can be foreseen
+      return (a.others() < b.others()) | ((a.others() == b.others()) & (a.use < b.use));
     });
     while (first != last) {
       const FaceUse *same = first + 1;
-      while (same != last && same->middle == first->middle && same->high == first->high) same++;
+      while (same != last && same->others() == first->others()) same++;
       visit(chunk, low, static_cast<const FaceUse *>(first), same);
       first += same - first;
     }
@@ -85,24 +86,24 @@ class FaceSweep {
     for (std::size_t t = 0; t < mesh_.tets.size(); t++) {
       if (t % (1 << 18) == 0) job_.poll(fraction);
       if (!excluded_.empty() && excluded_[t]) continue;
-      Tet v = mesh_.tets[t];
-      std::array<std::uint32_t, 4> corner{0, 1, 2, 3};  // sorted once for all four faces
+      std::uint64_t sorted[4];  // 4 v + k, once for all four faces
+      for (std::size_t k = 0; k < 4; k++) sorted[k] = 4 * std::uint64_t(mesh_.tets[t][k]) + k;
       const auto order = [&](std::size_t a, std::size_t b) {
-        if (v[a] > v[b]) {
-          std::swap(v[a], v[b]);
-          std::swap(corner[a], corner[b]);
-        }
+        const auto [low, high] = std::pair(std::min(sorted[a], sorted[b]), std::max(sorted[a], sorted[b]));
+        sorted[a] = low;
+        sorted[b] = high;
       };
+      const auto v = [&](std::size_t k) { return std::int32_t(sorted[k] / 4); };
+      const auto use = [&](std::size_t k) { return std::uint32_t(4 * t + sorted[k] % 4); };
       order(0, 1);
       order(2, 3);
       order(0, 2);
       order(1, 3);
       order(1, 2);
-      const auto use = std::uint32_t(4 * t);
-      visit(v[0], v[1], v[2], use + corner[3]);
-      visit(v[0], v[1], v[3], use + corner[2]);
-      visit(v[0], v[2], v[3], use + corner[1]);
-      visit(v[1], v[2], v[3], use + corner[0]);
+      visit(v(0), v(1), v(2), use(3));
+      visit(v(0), v(1), v(3), use(2));
+      visit(v(0), v(2), v(3), use(1));
+      visit(v(1), v(2), v(3), use(0));
     }
   }
 

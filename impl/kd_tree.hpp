@@ -3,6 +3,7 @@
 #pragma once
 #include <algorithm>
 #include <cstdint>
+#include <glm/gtc/type_ptr.hpp>
 
 #include "job.hpp"
 #include "mesh.hpp"
@@ -17,7 +18,7 @@ inline bool overlap(const Box &a, const Box &b) {
 inline double distance2(const Box &box, const Vec3 &p) {
   double sum = 0;
   for (int k = 0; k < 3; k++) {
-    const double d = p[k] < box.low[k] ? box.low[k] - p[k] : p[k] > box.high[k] ? p[k] - box.high[k] : 0.0;
+    const double d = std::max(0.0, std::max(box.low[k] - p[k], p[k] - box.high[k]));
     sum += d * d;
   }
   return sum;
@@ -172,7 +173,8 @@ class KdTree {
       for (const Entry &entry : entries) centres.add(entry.centre);
       const int axis = centres.longest_axis();
       std::nth_element(entries.begin(), entries.begin() + half, entries.end(), [axis](const Entry &a, const Entry &b) {
-        return a.centre[axis] != b.centre[axis] ? a.centre[axis] < b.centre[axis] : a.item < b.item;
+        const double at = glm::value_ptr(a.centre)[axis], other_at = glm::value_ptr(b.centre)[axis];
+        return (at < other_at) | ((at == other_at) & (a.item < b.item));
       });
       node.right = self + 1 + nodes_below(half).first;
       const auto split_half = [&](std::size_t right, std::size_t) {

@@ -86,15 +86,17 @@ void SolidComplex::find_neighbours(Job &job) {
     Array<std::int32_t> seen_by = array_of(points.size(), -1, job);
     for (std::size_t v = begin; v < end; v++) {
       if (v % 4096 == 0) job.poll(0);
-      room.list.clear();
+      const Span<const std::int32_t> star = tets_of.of(std::int32_t(v));
+      room.list.resize(4 * star.size());
+      std::size_t found = 0;
       seen_by[v] = std::int32_t(v);
-      for (std::int32_t t : tets_of.of(std::int32_t(v)))
-        for (std::int32_t u : tets[std::size_t(t)]) {
-          if (seen_by[std::size_t(u)] == std::int32_t(v)) continue;
+      for (std::int32_t t : star)
+        for (std::int32_t u : tets[std::size_t(t)]) {  // without a branch: what was seen cannot be foreseen
+          room.list[found] = u;
+          found += seen_by[std::size_t(u)] != std::int32_t(v);
           seen_by[std::size_t(u)] = std::int32_t(v);
-          room.list.push_back(u);
         }
-      neighbours.set(std::int32_t(v), room.list, room.neighbours);
+      neighbours.set(std::int32_t(v), {room.list.data(), found}, room.neighbours);
     }
   });
   if (std::any_of(rooms.begin(), rooms.end(), [](const CollapseRoom &room) { return room.neighbours.taken() > 0; }))
@@ -110,14 +112,17 @@ void SolidComplex::collapse(const SolidEdge &edge, const Vec3 &point, CollapseRo
 
 void SolidComplex::merge_tets(const SolidEdge &edge, CollapseRoom &room) {
   for (std::int32_t t : edge.edge_tets) tets[std::size_t(t)][0] = -1;
-  for (std::int32_t t : edge.gone_tets) {
-    Tet &tet = tets[std::size_t(t)];
-    *std::find(tet.begin(), tet.end(), edge.gone) = edge.stays;
+  for (std::int32_t t : edge.gone_tets)
+    for (std::int32_t &v : tets[std::size_t(t)]) v = v == edge.gone ? edge.stays : v;
+  const Span<const std::int32_t> of_stays = tets_of.of(edge.stays);
+  std::size_t left = edge.gone_tets.size();
+  room.list.resize(left + of_stays.size());
+  std::copy(edge.gone_tets.begin(), edge.gone_tets.end(), room.list.begin());
+  for (std::int32_t t : of_stays) {
+    room.list[left] = t;
+    left += has_tet(t);
   }
-  room.list.assign(edge.gone_tets.begin(), edge.gone_tets.end());
-  for (std::int32_t t : tets_of.of(edge.stays))
-    if (has_tet(t)) room.list.push_back(t);
-  tets_of.set(edge.stays, room.list, room.tets);
+  tets_of.set(edge.stays, {room.list.data(), left}, room.tets);
   tets_of.clear(edge.gone);
 }
 

@@ -41,7 +41,10 @@ class SolidCosts {
     for (std::int32_t u : mesh_.neighbours.of(v)) {
       if (!owns(v, u)) continue;
       const BestOfEdge best = of_edge(v, u);
-      if (best.cost > more_than && best.cost < found.cost) found = {best.cost, best.t, u, progress_.round};
+      const bool cheaper = (best.cost > more_than) & (best.cost < found.cost);
+      found.cost = cheaper ? best.cost : found.cost;
+      found.t = cheaper ? best.t : found.t;
+      found.other = cheaper ? u : found.other;
     }
     progress_.cheapest[std::size_t(v)] = found;
   }

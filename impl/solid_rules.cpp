@@ -12,7 +12,7 @@ bool has(const Triangle &t, std::int32_t v) { return (t[0] == v) | (t[1] == v) |
 /// Whether tet t, with its corner v at another place, would turn over, or be flat and keep less than `kept` of its
 /// shape.
 bool is_flattened(const SolidComplex &mesh, const Tet &t, std::int32_t v, const Vec3 &place, double kept) {
-  const auto &face = tet_face[v == t[0] ? 0 : v == t[1] ? 1 : v == t[2] ? 2 : 3];
+  const auto &face = tet_face[(v == t[1]) + 2 * (v == t[2]) + 3 * (v == t[3])];
   const auto corner = [&](int i) { return mesh.point(t[std::size_t(face[i])]); };
   const Vec3 a = corner(0), b = corner(1), c = corner(2);
   const double volume = det(place, a, b, c);

@@ -74,8 +74,11 @@ void keep_where(Array<T> &items, Job &job, const Keep &keep) {
   Array<std::size_t> kept(items.size() / stretch + 1, 0, &job.memory);
   job.parallel.for_blocks(items.size(), stretch, [&](std::size_t begin, std::size_t end) {
     std::size_t to = begin;
-    for (std::size_t i = begin; i < end; i++)
-      if (keep(i)) items[to++] = items[i];
+    for (std::size_t i = begin; i < end; i++) {
+      const bool kept_too = keep(i);
+      items[to] = items[i];
+      to += kept_too;
+    }
     kept[begin / stretch] = to - begin;
     job.poll(0);
   });
