@@ -174,6 +174,8 @@ class SolidDecimator {
   void collapse_in_block(double limit, Work &work, CollapseRoom &room) {
     for (std::size_t i = 0; i < work.items.size() && work.gone < work.most; i++) {
       if (i % 64 == 0) job_.poll(0);
+      if (i + 2 * ahead < work.items.size()) mesh_.prefetch_lists(work.items[i + 2 * ahead]);
+      if (i + ahead < work.items.size()) mesh_.prefetch_star(work.items[i + ahead]);
       if (find(work.items[i], limit, work.collapse)) make(work.collapse, work, room);
     }
   }

@@ -95,6 +95,15 @@ class SolidComplex {
   bool has_vertex(std::int32_t v) const { return !tets_of.of(v).empty(); }
   bool has_tet(std::int32_t t) const { return tets[std::size_t(t)][0] >= 0; }
   bool has_triangle(std::int32_t t) const { return triangles[std::size_t(t)][0] >= 0; }
+  /// What a look around v takes comes nearer: the lists first, then what is in them.
+  void prefetch_lists(std::int32_t v) const {
+    tets_of.prefetch(v);
+    neighbours.prefetch(v);
+  }
+  void prefetch_star(std::int32_t v) const {
+    for (std::int32_t t : tets_of.of(v)) __builtin_prefetch(&tets[std::size_t(t)]);
+    for (std::int32_t u : neighbours.of(v)) __builtin_prefetch(&points[std::size_t(u)]);
+  }
   /// Twice the area vector.
   Vec3 normal(std::int32_t triangle) const;
 

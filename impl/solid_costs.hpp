@@ -6,6 +6,9 @@
 
 namespace tetlod {
 
+/// So many vertices before its turn, what is around a vertex comes nearer; its lists as many before that.
+constexpr std::size_t ahead = 4;
+
 template <std::size_t m>
 class SolidCosts {
  public:
@@ -37,7 +40,7 @@ class SolidCosts {
     CheapestEdge found;
     found.round = progress_.round;
     if (!progress_.removes())
-      for (std::int32_t u : mesh_.neighbours.of(v)) mesh_.prefetch(u);
+      for (std::int32_t u : mesh_.neighbours.of(v)) mesh_.prefetch_quadric(u);
     for (std::int32_t u : mesh_.neighbours.of(v)) {
       if (!owns(v, u)) continue;
       const BestOfEdge best = of_edge(v, u);
@@ -53,7 +56,11 @@ class SolidCosts {
   void find_changed(Job &job) {
     const Array<std::int32_t> &changed = progress_.changed;
     job.parallel.for_blocks(changed.size(), 64, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; i++) find_cheapest(changed[i]);
+      for (std::size_t i = begin; i < end; i++) {
+        if (i + 2 * ahead < end) mesh_.neighbours.prefetch(changed[i + 2 * ahead]);
+        if (i + ahead < end) mesh_.prefetch_removal(changed[i + ahead]);
+        find_cheapest(changed[i]);
+      }
       job.poll(0);
     });
   }
