@@ -100,6 +100,7 @@ class Decimator {
 
   void copy_triangles(const SurfaceTopology &topology) {
     for (std::size_t t = 0; t < surface_.triangles.size(); t++) {
+      if (t % 16384 == 0) job_.poll(0);
       Triangle vertices{};
       for (std::size_t k = 0; k < 3; k++) vertices[k] = topology.sheet_vertex[3 * t + k];
       triangle_.push_back(vertices);
