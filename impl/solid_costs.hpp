@@ -58,7 +58,7 @@ class SolidCosts {
     job.parallel.for_blocks(changed.size(), 64, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; i++) {
         if (i + 2 * ahead < end) mesh_.neighbours.prefetch(changed[i + 2 * ahead]);
-        if (i + ahead < end) mesh_.prefetch_removal(changed[i + ahead]);
+        if (i + ahead < end) mesh_.prefetch_places(changed[i + ahead]);
         find_cheapest(changed[i]);
       }
       job.poll(0);

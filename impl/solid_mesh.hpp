@@ -112,15 +112,15 @@ class SolidMesh : public SolidComplex {
 
   const Quadric &quadric(std::int32_t v) const { return quadrics_[std::size_t(v)]; }
   const Vector<m> &lengths(std::int32_t v) const { return lengths_[std::size_t(v)]; }
-  /// What costs of its edges are made of comes nearer, all at once.
+  /// What v has in the cost of an edge comes nearer, all at once.
   void prefetch_quadric(std::int32_t v) const {
     constexpr std::size_t line = 64;
     for (std::size_t at = 0; at < sizeof(Quadric); at += line)
       __builtin_prefetch(reinterpret_cast<const char *>(&quadric(v)) + at);
     __builtin_prefetch(&point(v));
   }
-  /// What the costs of its removal are made of.
-  void prefetch_removal(std::int32_t v) const {
+  /// The quadric of v, and the places around it.
+  void prefetch_places(std::int32_t v) const {
     prefetch_quadric(v);
     for (std::int32_t u : neighbours.of(v)) {
       __builtin_prefetch(&point(u));
