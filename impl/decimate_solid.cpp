@@ -102,9 +102,10 @@ class SolidDecimator {
 
   /// What a block does in a round.
   struct Work {
-    explicit Work(Memory &memory) : items(&memory), changed(&memory), collapse(memory) {}
+    explicit Work(Memory &memory) : items(&memory), changed(&memory), collapse(memory), neighbours(memory) {}
     Array<std::int32_t> items, changed;
     SolidCollapse<m> collapse;
+    Neighbours neighbours;
     std::int64_t most = 0, gone = 0;  ///< tets
     double cost = 0;
   };
@@ -174,9 +175,8 @@ class SolidDecimator {
   void collapse_in_block(double limit, Work &work, CollapseRoom &room) {
     for (std::size_t i = 0; i < work.items.size() && work.gone < work.most; i++) {
       if (i % 64 == 0) job_.poll(0);
-      if (i + 2 * ahead < work.items.size()) mesh_.prefetch_lists(work.items[i + 2 * ahead]);
-      if (i + ahead < work.items.size()) mesh_.prefetch_star(work.items[i + ahead]);
-      if (find(work.items[i], limit, work.collapse)) make(work.collapse, work, room);
+      mesh_.prefetch_after(i, work.items);
+      if (find(work.items[i], limit, work)) make(work.collapse, work, room);
     }
   }
 
@@ -227,37 +227,42 @@ class SolidDecimator {
     };
     while (progress_.removes() && last_is_no_finer() && !states_->back().progress.removes()) states_->pop_back();
     if (last_is_no_finer()) return;
-    if (progress_.follows() ? remains.tets.size() > remains.measures.tets / 2 : raises_peak(remains)) return;
+    if (progress_.follows() ? remains.tets.size() > remains.measures.tets / 2 : takes_too_much(remains)) return;
     remains.give_spare_back();
     job_.poll(0);  // each of both copies large arrays
+    kept_ += remains.bytes() + progress_.bytes();
     states_->push_back({SolidRemains<m>(remains, job_.memory), SolidProgress(progress_, job_.memory)});
   }
 
-  bool raises_peak(const SolidRemains<m> &remains) const {
-    const std::size_t of_lists = remains.bytes() / 4 * 5;  // about, when they are made again, and grow
+  /// Than the peak so far, now or later; where other sizes are likely to follow, than a quarter more.
+  bool takes_too_much(const SolidRemains<m> &remains) {
+    const std::size_t peak = job_.memory.peak();
+    if (most_ == 0) most_ = options_.one_of_many ? peak / 4 * 5 : peak;
+    const std::size_t of_lists = SolidComplex::bytes_of_lists(remains.points.size(), remains.tets.size());
     const std::size_t in_use = job_.memory.in_use() - remains.spare_bytes();
-    return in_use + remains.bytes() + progress_.bytes() + of_lists > job_.memory.peak();
+    return std::max(in_use + of_lists, options_.later + kept_) + remains.bytes() + progress_.bytes() > most_;
   }
 
   // ---- A collapse
 
   /// The cheapest admissible one of an edge of v within the limit. A vertex moves once a round.
-  bool find(std::int32_t v, double limit, SolidCollapse<m> &collapse) {
+  bool find(std::int32_t v, double limit, Work &work) {
     if (!mesh_.has_vertex(v) || progress_.moved[std::size_t(v)] == progress_.round || waits(v)) return false;
-    if (!costs_.is_known(cheapest(v))) costs_.find_cheapest(v);
+    if (!costs_.is_known(cheapest(v))) costs_.find_cheapest(v, work.neighbours);
     if (!(cheapest(v).cost <= limit) || waits(cheapest(v).other)) return false;
-    return is_admissible(v, cheapest(v), collapse) || find_dearer(v, limit, collapse);
+    return is_admissible(v, cheapest(v), work.collapse) || find_dearer(v, limit, work);
   }
 
-  bool waits(std::int32_t v) const { return !blocks_.is_inside(mesh_, v); }
+  bool waits(std::int32_t v) const { return !blocks_.is_inside(v); }
 
   /// The same among the edges that cost more than the cheapest, which is not admissible.
-  bool find_dearer(std::int32_t v, double limit, SolidCollapse<m> &collapse) {
+  bool find_dearer(std::int32_t v, double limit, Work &work) {
     Few<CheapestEdge, largest_cavity> dearer;
     const double tried = cheapest(v).cost;
     CheapestEdge later;
     later.round = stuck;
-    for (std::int32_t u : mesh_.neighbours.of(v)) {
+    mesh_.find_neighbours(v, work.neighbours);
+    for (std::int32_t u : work.neighbours) {
       if (!costs_.owns(v, u)) continue;
       const BestOfEdge best = costs_.of_edge(v, u);
       if (best.cost > tried && best.cost <= limit) dearer.push({best.cost, best.t, u, progress_.round});
@@ -270,7 +275,7 @@ class SolidDecimator {
     for (const CheapestEdge &edge : dearer) {
       cheapest(v) = edge;
       if (waits(edge.other)) return false;
-      if (is_admissible(v, edge, collapse)) return true;
+      if (is_admissible(v, edge, work.collapse)) return true;
     }
     cheapest(v) = later;
     return false;
@@ -285,7 +290,7 @@ class SolidDecimator {
     const std::int32_t v = collapse.edge.stays;
     if (deviation_ && collapse.of_boundary) {
       if (deviation_->is_passed(collapse.star)) {
-        costs_.find_cheapest(collapse.found_at, cheapest(collapse.found_at).cost);
+        costs_.find_cheapest(collapse.found_at, work.neighbours, cheapest(collapse.found_at).cost);
         return;
       }
       deviation_->move_on(collapse.star);
@@ -296,12 +301,14 @@ class SolidDecimator {
     work.cost += cheapest(collapse.found_at).cost;
     progress_.moved[std::size_t(v)] = progress_.round;
     work.changed.push_back(v);
+    cheapest(v).round = waiting;  // once is enough
     // What was not admissible around it may be so now.
-    for (std::int32_t u : mesh_.neighbours.of(v))
-      if (cheapest(u).round == stuck) {
-        cheapest(u).round = waiting;
-        work.changed.push_back(u);
-      }
+    for (std::int32_t t : mesh_.tets_of.of(v))
+      for (std::int32_t u : mesh_.tets[std::size_t(t)])
+        if (cheapest(u).round == stuck) {
+          cheapest(u).round = waiting;
+          work.changed.push_back(u);
+        }
   }
 
   const MeshView &original_;
@@ -313,7 +320,8 @@ class SolidDecimator {
   SolidCosts<m> costs_;
   SolidPlaces<m> places_;
   Array<SolidState<m>> *states_;
-  std::int64_t count_;  // of the tets that are left
+  std::size_t kept_ = 0, most_ = 0;  // bytes of those that came to them, and in all while they come; 0: to be found
+  std::int64_t count_;               // of the tets that are left
   SolidBlocks blocks_;
   Array<CollapseRoom> rooms_;  // of each block
   Array<Work> works_;

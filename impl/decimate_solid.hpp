@@ -20,6 +20,8 @@ struct SolidOptions {
   Span<const std::uint8_t> kept;      ///< original vertices that keep place and value; empty: none
   Span<const std::uint8_t> restored;  ///< others that do so this time; empty: none
   Span<const std::uint8_t> touching;  ///< original vertices where the solid touches itself; empty: none
+  std::size_t later = 0;              ///< bytes in use when the run is further on, without the states that it keeps
+  bool one_of_many = false;           ///< other sizes are likely to follow: states are worth some memory
 };
 
 /// `surface` is the boundary with points of its own. mesh: what is left, as many tets as there shall be, or more where

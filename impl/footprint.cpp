@@ -26,7 +26,7 @@ constexpr double bytes_a_refined_tet = 250, bytes_a_refined_point = 70, bytes_a_
 // Of these for each field more that steers.
 constexpr double values_a_refined_tet = 2, values_a_refined_point = 7, values_a_solid_point = 8;
 // Of the original while its edges collapse.
-constexpr double bytes_a_solid_tet = 58, bytes_a_solid_point = 225, bytes_of_collapses = 2e5;
+constexpr double bytes_a_solid_tet = 58, bytes_a_solid_point = 150, bytes_of_collapses = 2e5;
 // Of a field: original vertices are held by many tets, the centroids of cells by one.
 constexpr double bytes_a_located_point = 400, bytes_a_located_cell = 190, bytes_a_stencil = 48;
 
@@ -55,6 +55,14 @@ double bytes_of_fields(const Outlook &outlook, const Input &input) {
   return bytes_of_result(outlook) +
          std::max({bytes_a_located_point * points, bytes_a_stencil * points + bytes_a_located_cell * cells,
                    bytes_a_stencil * points + values});
+}
+
+double bytes_of_refining(const Outlook &outlook) {
+  if (!(outlook.probes > 0)) return 0;
+  const double more = sizeof(double) * (outlook.fields - 1);
+  return (bytes_a_refined_tet + values_a_refined_tet * more) * outlook.tets +
+         (bytes_a_refined_point + values_a_refined_point * more) * outlook.points +
+         (bytes_a_probe + more) * outlook.probes;
 }
 
 /// Largest distance of the values of some vertices from the linear function that fits them best.
@@ -151,18 +159,22 @@ double tets_for_bound(const MeshView &mesh, double bound, Job &job) {
 
 double expected_bytes(const Outlook &outlook, const Input &input) {
   const double more = sizeof(double) * (outlook.fields - 1);
-  const double refining = outlook.probes > 0
-                              ? (bytes_a_refined_tet + values_a_refined_tet * more) * outlook.tets +
-                                    (bytes_a_refined_point + values_a_refined_point * more) * outlook.points +
-                                    (bytes_a_probe + more) * outlook.probes
-                              : 0;
   const double collapsing = outlook.solid_tets > 0
                                 ? bytes_a_solid_tet * outlook.solid_tets +
                                       (bytes_a_solid_point + values_a_solid_point * more) * outlook.solid_points +
                                       bytes_of_collapses
                                 : 0;
-  return std::max({bytes_of_decimation(outlook), collapsing, bytes_a_result_point * outlook.points, refining,
-                   input.fields.empty() ? 0 : bytes_of_fields(outlook, input)});
+  return std::max({bytes_of_decimation(outlook), collapsing, bytes_a_result_point * outlook.points,
+                   bytes_of_refining(outlook), input.fields.empty() ? 0 : bytes_of_fields(outlook, input)});
+}
+
+std::size_t bytes_to_refine(const MeshView &original, std::int64_t tets, int rounds) {
+  Outlook of;
+  of.tets = double(tets);
+  of.points = of.tets / tets_a_point;
+  of.fields = double(original.fields);
+  of.probes = double(expected_probes(original, enough_probes(of.tets, rounds)));
+  return std::size_t(bytes_of_refining(of));
 }
 
 Outlook outlook_of(const Original &original, const Boundary &boundary, Span<const std::int32_t> samples,

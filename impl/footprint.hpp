@@ -21,6 +21,9 @@ struct Outlook {
 /// constants come from real sets with 2 K to 54 K boundary triangles and results of 0.4 K to 750 K tets.
 double expected_bytes(const Outlook &outlook, const Input &input);
 
+/// Of refine(), beside what is in use before it, with a mesh of so many tets.
+std::size_t bytes_to_refine(const MeshView &original, std::int64_t tets, int rounds);
+
 /// When boundary, samples and the first budget are known.
 Outlook outlook_of(const Original &original, const Boundary &boundary, Span<const std::int32_t> samples,
                    const Options &options, const Budget &budget, const Report &report, Job &job);

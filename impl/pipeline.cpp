@@ -137,12 +137,15 @@ class Pipeline {
     const StageTimer timer(Stage::decimate, job_, report_);
     const CollapseSizes sizes = collapse_sizes(budget_, options_);
     const bool holds_bound = options_.max_error > 0;
-    const SolidOptions options{sizes.tets,        budget_.enough,   budget_.dearest,
-                               deviation_limit(), holds_bound,      options_.warm_start,
-                               kept_.by_host(),   kept_.restored(), {}};
-    const std::string wrong = decimate_solid_and_check(
-        original_.view, boundary_, prepared_.surface(job_), prepared_.topology(job_), options, sizes.lowered,
-        prepared_.history(holds_bound, options_.warm_start > 0, job_), job_, coarse);
+    SolidHistory &history = prepared_.history(holds_bound, options_.warm_start > 0, job_);
+    SolidOptions options{sizes.tets,        budget_.enough,   budget_.dearest,
+                         deviation_limit(), holds_bound,      options_.warm_start,
+                         kept_.by_host(),   kept_.restored(), {}};
+    options.later = job_.memory.in_use() + bytes_to_refine(original_.view, sizes.tets, rounds_of(options_, report_));
+    options.one_of_many = report_.reused_tets > 0 && history.is_repeated();
+    const std::string wrong =
+        decimate_solid_and_check(original_.view, boundary_, prepared_.surface(job_), prepared_.topology(job_), options,
+                                 sizes.lowered, history, job_, coarse);
     report_.reused_collapses = coarse.reused;
     if (!wrong.empty() && job_.log) job_.log(1, ("edges collapsed in vain, so that it is remeshed: " + wrong).c_str());
     return wrong.empty();
@@ -158,8 +161,7 @@ class Pipeline {
     report_.samples = report_.selected_samples = std::int64_t(mesh_.points.size()) - report_.boundary_points_out;
     // Of a round before:
     report_.samples_outside = report_.samples_too_near = report_.steiner_points = report_.reused_samples = 0;
-    report_.boundary_retries = report_.remesh_attempts = 0;
-    report_.cleaned_edges = report_.reused_triangles = 0;
+    report_.cleaned_edges = report_.reused_triangles = report_.boundary_retries = report_.remesh_attempts = 0;
     report_.worker_peak_bytes = 0;
   }
 

@@ -52,9 +52,32 @@ void SolidBlocks::cut(const SolidComplex &mesh, Span<const std::int32_t> left, i
   for (std::size_t i = 0; i < left.size(); i += left.size() / enough + 1) sample.push_back(mesh.point(left[i]));
   const Cuts cuts(sample, count_, shares[std::size_t(round) % std::size(shares)]);
   job.parallel.for_blocks(left.size(), 1024, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; i++)
-      block_[std::size_t(left[i])] = std::uint8_t(cuts.block_of(mesh.point(left[i])));
+    for (std::size_t i = begin; i < end; i++) {
+      const auto v = std::size_t(left[i]);
+      block_[v] = std::uint8_t(cuts.block_of(mesh.points[v]));
+      at_border_[v] = 0;
+    }
   });
+  find_borders(mesh, job);
+}
+
+/// Tet by tet: in order of memory, and once, unlike the stars of the vertices.
+void SolidBlocks::find_borders(const SolidComplex &mesh, Job &job) {
+  const auto block_of = [&](std::int32_t v) { return unsigned(block_[std::size_t(v)]); };
+  const auto crosses = [&](const Tet &t) {
+    const unsigned first = block_of(t[0]);
+    return ((first ^ block_of(t[1])) | (first ^ block_of(t[2])) | (first ^ block_of(t[3]))) != 0;
+  };
+  Array<Array<std::int32_t>> crossing(mesh.tets.size() / stretch + 1, &job.memory);
+  job.parallel.for_blocks(mesh.tets.size(), stretch, [&](std::size_t begin, std::size_t end) {
+    Array<std::int32_t> &of_stretch = crossing[begin / stretch];
+    for (std::size_t t = begin; t < end; t++)
+      if (mesh.has_tet(std::int32_t(t)) && crosses(mesh.tets[t])) of_stretch.push_back(std::int32_t(t));
+    job.poll(0);
+  });
+  for (const Array<std::int32_t> &of_stretch : crossing)
+    for (std::int32_t t : of_stretch)
+      for (std::int32_t v : mesh.tets[std::size_t(t)]) at_border_[std::size_t(v)] = 1;
 }
 
 }  // namespace tetlod

@@ -9,7 +9,7 @@ class SolidBlocks {
  public:
   static constexpr std::size_t most = 8;
 
-  SolidBlocks(std::size_t vertices, Memory &memory) : block_(vertices, 0, &memory) {}
+  SolidBlocks(std::size_t vertices, Memory &memory) : block_(vertices, 0, &memory), at_border_(vertices, 0, &memory) {}
 
   /// Anew in every round, of the vertices that are left; the more, the more blocks, at most so many. Depends on the
   /// mesh alone.
@@ -19,13 +19,12 @@ class SolidBlocks {
   std::size_t of(std::int32_t v) const { return count_ == 1 ? 0 : block_[std::size_t(v)]; }
 
   /// Whether all of its neighbours are in the same block.
-  bool is_inside(const SolidComplex &mesh, std::int32_t v) const {
-    const Span<const std::int32_t> around = mesh.neighbours.of(v);
-    return count_ == 1 || std::all_of(around.begin(), around.end(), [&](std::int32_t u) { return of(u) == of(v); });
-  }
+  bool is_inside(std::int32_t v) const { return count_ == 1 || !at_border_[std::size_t(v)]; }
 
  private:
-  Array<std::uint8_t> block_;
+  void find_borders(const SolidComplex &mesh, Job &job);
+
+  Array<std::uint8_t> block_, at_border_;
   std::size_t count_ = 1;
 };
 

@@ -34,10 +34,7 @@ SolidComplex::SolidComplex(Array<Vec3> &&points_of, Array<Rank> &&ranks_of, Arra
       triangles(std::move(triangles_of_it)),
       tets_of(Span<const Tet>(tets), points.size(), job),
       triangles_of(Span<const Triangle>(triangles), points.size(), job),
-      neighbours(0, job),
-      measures(of_original) {
-  find_neighbours(job);
-}
+      measures(of_original) {}
 
 /// The median of some thousand tets'. Of a squeezed mesh all are flat.
 double SolidComplex::usual_shape2(Memory &memory) const {
@@ -63,51 +60,10 @@ double SolidComplex::volume(Job &job) const {
   return std::accumulate(parts.begin(), parts.end(), 0.0) / 6;
 }
 
-/// Of each vertex, from Euler's formula for the sphere, or the disk, that its tets have opposite it; where the solid
-/// touches itself there are more.
-Array<std::uint32_t> SolidComplex::usual_neighbours(Job &job) const {
-  Array<std::uint32_t> counts = array_of(points.size(), std::uint32_t(0), job);
-  for_each(points.size(), job, [&](std::size_t v) {
-    const auto around = std::uint32_t(tets_of.of(std::int32_t(v)).size());
-    const auto rim = std::uint32_t(triangles_of.of(std::int32_t(v)).size());
-    counts[v] = (around + rim) / 2 + (rim == 0 ? 2 : 1);
-  });
-  return counts;
-}
-
-void SolidComplex::find_neighbours(Job &job) {
-  neighbours = StarLists(usual_neighbours(job), job);
-  const auto parts = std::size_t(job.parallel.threads());
-  Array<CollapseRoom> rooms(&job.memory);
-  rooms.reserve(parts);
-  for (std::size_t i = 0; i < parts; i++) rooms.emplace_back(job.memory);
-  job.parallel.for_parts(points.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
-    CollapseRoom &room = rooms[part];
-    Array<std::int32_t> seen_by = array_of(points.size(), -1, job);
-    for (std::size_t v = begin; v < end; v++) {
-      if (v % 4096 == 0) job.poll(0);
-      const Span<const std::int32_t> star = tets_of.of(std::int32_t(v));
-      room.list.resize(4 * star.size());
-      std::size_t found = 0;
-      seen_by[v] = std::int32_t(v);
-      for (std::int32_t t : star)
-        for (std::int32_t u : tets[std::size_t(t)]) {  // without a branch: what was seen cannot be foreseen
-          room.list[found] = u;
-          found += seen_by[std::size_t(u)] != std::int32_t(v);
-          seen_by[std::size_t(u)] = std::int32_t(v);
-        }
-      neighbours.set(std::int32_t(v), {room.list.data(), found}, room.neighbours);
-    }
-  });
-  if (std::any_of(rooms.begin(), rooms.end(), [](const CollapseRoom &room) { return room.neighbours.taken() > 0; }))
-    neighbours.compact(job);
-}
-
 void SolidComplex::collapse(const SolidEdge &edge, const Vec3 &point, CollapseRoom &room) {
   points[std::size_t(edge.stays)] = point;
   merge_tets(edge, room);
   if (on_boundary(edge.gone)) merge_triangles(edge, room);
-  merge_neighbours(edge, room);
 }
 
 void SolidComplex::merge_tets(const SolidEdge &edge, CollapseRoom &room) {
@@ -144,25 +100,7 @@ void SolidComplex::merge_triangles(const SolidEdge &edge, CollapseRoom &room) {
   triangles_of.clear(edge.gone);
 }
 
-void SolidComplex::merge_neighbours(const SolidEdge &edge, CollapseRoom &room) {
-  const Span<const std::int32_t> of_stays = neighbours.of(edge.stays);
-  room.list.assign(of_stays.begin(), of_stays.end());
-  room.list.erase(std::find(room.list.begin(), room.list.end(), edge.gone));
-  for (std::int32_t u : neighbours.of(edge.gone)) {
-    if (u == edge.stays) continue;
-    if (std::find(of_stays.begin(), of_stays.end(), u) != of_stays.end()) {
-      neighbours.remove(u, edge.gone);
-    } else {
-      neighbours.replace(u, edge.gone, edge.stays);
-      room.list.push_back(u);
-    }
-  }
-  neighbours.set(edge.stays, room.list, room.neighbours);
-  neighbours.clear(edge.gone);
-}
-
 void SolidComplex::tidy(Span<CollapseRoom> rooms, Job &job) {
-  constexpr std::size_t much = 8;  // times what has grown is all
   const auto tidy_up = [&](StarLists &lists, ListRoom CollapseRoom::*room) {
     std::size_t taken = 0;
     for (const CollapseRoom &some : rooms) taken += (some.*room).taken();
@@ -172,7 +110,6 @@ void SolidComplex::tidy(Span<CollapseRoom> rooms, Job &job) {
   };
   tidy_up(tets_of, &CollapseRoom::tets);
   tidy_up(triangles_of, &CollapseRoom::triangles);
-  tidy_up(neighbours, &CollapseRoom::neighbours);
 }
 
 }  // namespace tetlod

@@ -1,6 +1,7 @@
 // A tetrahedral mesh and its boundary while edges collapse: what is around each vertex.
 #pragma once
 #include "few.hpp"
+#include "neighbours.hpp"
 #include "solid_in_order.hpp"
 #include "star_lists.hpp"
 
@@ -49,12 +50,12 @@ struct SolidEdge {
 
 /// What collapses need, for one thread at a time.
 struct CollapseRoom {
-  explicit CollapseRoom(Memory &memory) : tets(memory), triangles(memory), neighbours(memory), list(&memory) {}
-  ListRoom tets, triangles, neighbours;
+  explicit CollapseRoom(Memory &memory) : tets(memory), triangles(memory), list(&memory) {}
+  ListRoom tets, triangles;
   Array<std::int32_t> list;
 
   void clear() {
-    for (ListRoom *room : {&tets, &triangles, &neighbours}) room->clear();
+    for (ListRoom *room : {&tets, &triangles}) room->clear();
   }
 };
 
@@ -80,7 +81,6 @@ class SolidComplex {
   Array<Tet> tets;                  ///< positive; the first corner of one that is gone is -1
   Array<Triangle> triangles;        ///< the boundary, outward; likewise
   StarLists tets_of, triangles_of;  ///< some of them may be gone
-  StarLists neighbours;             ///< of each vertex
   SolidMeasures measures;
 
   const Vec3 &point(std::int32_t v) const { return points[std::size_t(v)]; }
@@ -95,14 +95,19 @@ class SolidComplex {
   bool has_vertex(std::int32_t v) const { return !tets_of.of(v).empty(); }
   bool has_tet(std::int32_t t) const { return tets[std::size_t(t)][0] >= 0; }
   bool has_triangle(std::int32_t t) const { return triangles[std::size_t(t)][0] >= 0; }
-  /// What a look around v takes comes nearer: the lists first, then what is in them.
-  void prefetch_lists(std::int32_t v) const {
-    tets_of.prefetch(v);
-    neighbours.prefetch(v);
-  }
-  void prefetch_star(std::int32_t v) const {
-    for (std::int32_t t : tets_of.of(v)) __builtin_prefetch(&tets[std::size_t(t)]);
-    for (std::int32_t u : neighbours.of(v)) __builtin_prefetch(&points[std::size_t(u)]);
+  void find_neighbours(std::int32_t v, Neighbours &neighbours) const { neighbours.find(v, tets_of.of(v), tets); }
+  static constexpr std::size_t ahead = 4;  ///< vertices, in what follows
+  /// What a look around the next ones of these vertices takes comes nearer: first lists, then the tets in them, then
+  /// where two corners of each are, which are most of the neighbours.
+  void prefetch_after(std::size_t i, Span<const std::int32_t> vertices) const {
+    if (i + 3 * ahead < vertices.size()) tets_of.prefetch(vertices[i + 3 * ahead]);
+    if (i + 2 * ahead < vertices.size())
+      for (std::int32_t t : tets_of.of(vertices[i + 2 * ahead])) __builtin_prefetch(&tets[std::size_t(t)]);
+    if (i + ahead < vertices.size())
+      for (std::int32_t t : tets_of.of(vertices[i + ahead])) {
+        __builtin_prefetch(&point(tets[std::size_t(t)][1]));
+        __builtin_prefetch(&point(tets[std::size_t(t)][2]));
+      }
   }
   /// Twice the area vector.
   Vec3 normal(std::int32_t triangle) const;
@@ -114,14 +119,17 @@ class SolidComplex {
   /// Lists side by side again, when those that have grown take much room.
   void tidy(Span<CollapseRoom> rooms, Job &job);
 
+  /// About, with what they grow by between two tidyings; those of triangles are few.
+  static std::size_t bytes_of_lists(std::size_t vertices, std::size_t tets) {
+    return 2 * vertices * (sizeof(std::int32_t *) + sizeof(std::uint32_t)) + tets * sizeof(Tet) / much * (much + 1);
+  }
+
  private:
-  Array<std::uint32_t> usual_neighbours(Job &job) const;
-  void find_neighbours(Job &job);
+  static constexpr std::size_t much = 8;  ///< times what has grown is all
   double usual_shape2(Memory &memory) const;
   double volume(Job &job) const;
   void merge_tets(const SolidEdge &edge, CollapseRoom &room);
   void merge_triangles(const SolidEdge &edge, CollapseRoom &room);
-  void merge_neighbours(const SolidEdge &edge, CollapseRoom &room);
 };
 
 }  // namespace tetlod

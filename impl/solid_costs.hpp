@@ -6,9 +6,6 @@
 
 namespace tetlod {
 
-/// So many vertices before its turn, what is around a vertex comes nearer; its lists as many before that.
-constexpr std::size_t ahead = 4;
-
 template <std::size_t m>
 class SolidCosts {
  public:
@@ -36,12 +33,13 @@ class SolidCosts {
   }
 
   /// Of those of v that cost more than that.
-  void find_cheapest(std::int32_t v, double more_than = -infinity) {
+  void find_cheapest(std::int32_t v, Neighbours &neighbours, double more_than = -infinity) {
     CheapestEdge found;
     found.round = progress_.round;
+    mesh_.find_neighbours(v, neighbours);
     if (!progress_.removes())
-      for (std::int32_t u : mesh_.neighbours.of(v)) mesh_.prefetch_quadric(u);
-    for (std::int32_t u : mesh_.neighbours.of(v)) {
+      for (std::int32_t u : neighbours) mesh_.prefetch_quadric(u);
+    for (std::int32_t u : neighbours) {
       if (!owns(v, u)) continue;
       const BestOfEdge best = of_edge(v, u);
       const bool cheaper = (best.cost > more_than) & (best.cost < found.cost);
@@ -55,11 +53,12 @@ class SolidCosts {
   /// The cheapest of each vertex whose edges cost something else than they did.
   void find_changed(Job &job) {
     const Array<std::int32_t> &changed = progress_.changed;
-    job.parallel.for_blocks(changed.size(), 64, [&](std::size_t begin, std::size_t end) {
+    job.parallel.for_blocks(changed.size(), 256, [&](std::size_t begin, std::size_t end) {
+      Neighbours neighbours(job.memory);
       for (std::size_t i = begin; i < end; i++) {
-        if (i + 2 * ahead < end) mesh_.neighbours.prefetch(changed[i + 2 * ahead]);
-        if (i + ahead < end) mesh_.prefetch_places(changed[i + ahead]);
-        find_cheapest(changed[i]);
+        mesh_.prefetch_after(i, changed);
+        if (i + mesh_.ahead < end) mesh_.prefetch_quadric(changed[i + mesh_.ahead]);
+        find_cheapest(changed[i], neighbours);
       }
       job.poll(0);
     });

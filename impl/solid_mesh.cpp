@@ -38,7 +38,7 @@ SolidMesh<m>::SolidMesh(SolidRemains<m> &&remains, Job &job)
 
 template <std::size_t m>
 SolidRemains<m> SolidMesh<m>::take_remains(Span<const std::int32_t> number, Job &job) {
-  for (StarLists *lists : {&tets_of, &triangles_of, &neighbours}) *lists = StarLists(0, job);  // first, to make room
+  for (StarLists *lists : {&tets_of, &triangles_of}) *lists = StarLists(0, job);  // first, to make room
   const auto is_left = [&](std::size_t v) { return number[v] >= 0; };
   keep_where(origin, job, is_left);
   keep_where(points, job, is_left);

@@ -119,14 +119,6 @@ class SolidMesh : public SolidComplex {
       __builtin_prefetch(reinterpret_cast<const char *>(&quadric(v)) + at);
     __builtin_prefetch(&point(v));
   }
-  /// The quadric of v, and the places around it.
-  void prefetch_places(std::int32_t v) const {
-    prefetch_quadric(v);
-    for (std::int32_t u : neighbours.of(v)) {
-      __builtin_prefetch(&point(u));
-      __builtin_prefetch(&lengths(u));
-    }
-  }
   /// x, y, z, and the values as lengths.
   Place place(std::int32_t v) const {
     const Vec3 &p = point(v);

@@ -70,6 +70,7 @@ void SolidHistory::begin(const MeshView &original, bool holds_bound, bool keeps_
   for (std::size_t k = 0; k < original.fields; k++) values.add(original.scales.weighted[k]);
   values.add(original.scalars, job);
   now_ = values;
+  repeated_ = !is_earlier();
   if (holds_bound != holds_bound_ || (is_earlier() && !keeps_earlier)) forget_earlier(job.memory);
   holds_bound_ = holds_bound;
 }

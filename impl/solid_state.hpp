@@ -75,6 +75,8 @@ class SolidHistory {
   /// are others.
   void begin(const MeshView &original, bool holds_bound, bool keeps_earlier, Job &job);
   bool is_earlier() const { return !(now_ == values_); }
+  /// Whether it began with these values before.
+  bool is_repeated() const { return repeated_; }
   void forget_earlier(Memory &memory);
   void forget(Memory &memory);
 
@@ -105,7 +107,7 @@ class SolidHistory {
   }
 
  private:
-  bool holds_bound_ = false;
+  bool holds_bound_ = false, repeated_ = false;
   Fingerprint values_, now_;
   double usual_cost_ = 0;
   std::int64_t tets_of_cost_ = 0;

@@ -1,4 +1,4 @@
-// A list for every vertex, of the simplices that have it or of its neighbours, while vertices merge.
+// A list for every vertex, of the simplices that have it, while vertices merge.
 #pragma once
 #include <algorithm>
 #include <numeric>
@@ -33,13 +33,6 @@ class ListRoom {
   std::size_t used_ = 0, taken_ = 0;
 };
 
-/// Of what is in the list. Looks at all of it: where it is cannot be foreseen, and a wrong guess costs more.
-inline std::uint32_t place_of(std::int32_t entry, Span<const std::int32_t> list) {
-  std::uint32_t place = 0;
-  for (std::uint32_t i = 0; i < list.size(); i++) place += list[i] == entry ? i : 0;
-  return place;
-}
-
 class StarLists {
  public:
   /// Empty lists.
@@ -47,12 +40,6 @@ class StarLists {
       : begin_(vertices, nullptr, &job.memory), count_(vertices, 0, &job.memory), pieces_(&job.memory) {}
   StarLists(StarLists &&) = default;
   StarLists &operator=(StarLists &&) = default;
-
-  /// Lists with room for so many entries, to be set.
-  StarLists(Array<std::uint32_t> &&entries, Job &job)
-      : begin_(entries.size(), nullptr, &job.memory), count_(std::move(entries)), pieces_(&job.memory) {
-    give_room(job);
-  }
 
   /// The simplices of each vertex, but those that are gone, whose first corner is -1.
   template <std::size_t corners>
@@ -82,13 +69,6 @@ class StarLists {
     count_[std::size_t(v)] = std::uint32_t(list.size());
   }
   void clear(std::int32_t v) { count_[std::size_t(v)] = 0; }
-
-  /// An entry in the list of v becomes another.
-  void replace(std::int32_t v, std::int32_t entry, std::int32_t by) { *find(v, entry) = by; }
-  void remove(std::int32_t v, std::int32_t entry) {
-    *find(v, entry) = begin_[std::size_t(v)][count_[std::size_t(v)] - 1];
-    count_[std::size_t(v)]--;
-  }
 
   /// Of the lists that lie side by side.
   std::size_t room() const {
@@ -151,11 +131,6 @@ class StarLists {
 
   std::size_t entries(std::size_t begin, std::size_t end) const {
     return std::accumulate(count_.data() + begin, count_.data() + end, std::size_t(0));
-  }
-
-  std::int32_t *find(std::int32_t v, std::int32_t entry) {
-    const Span<const std::int32_t> list = of(v);
-    return begin_[std::size_t(v)] + place_of(entry, list);
   }
 
   Array<std::int32_t *> begin_;

@@ -306,8 +306,10 @@ TEST_F(DecimateSolid, WhatItAdmitsSatisfiesTheLinkCondition) {
     std::vector<Simplex> maximal;
     for (const Tet &t : solid.tets) maximal.emplace_back(t.begin(), t.end());
     for (const Triangle &t : solid.triangles) maximal.push_back({t[0], t[1], t[2], cone});
-    for (std::int32_t a = 0; a < std::int32_t(solid.points.size()); a++)
-      for (std::int32_t b : solid.neighbours.of(a)) {
+    Neighbours neighbours(host.memory);
+    for (std::int32_t a = 0; a < std::int32_t(solid.points.size()); a++) {
+      solid.find_neighbours(a, neighbours);
+      for (std::int32_t b : neighbours) {
         if (solid.rank(b) > solid.rank(a)) continue;
         SolidEdge edge, of_removal;
         Star star(host.memory);
@@ -324,6 +326,7 @@ TEST_F(DecimateSolid, WhatItAdmitsSatisfiesTheLinkCondition) {
         (admits ? admitted : refused)++;
         of_boundary += admits && on_boundary;
       }
+    }
   }
   EXPECT_GT(admitted, 100);
   EXPECT_GT(of_boundary, 100);
