@@ -121,7 +121,7 @@ class SolidComplex {
 
   /// About, with what they grow by between two tidyings; those of triangles are few.
   static std::size_t bytes_of_lists(std::size_t vertices, std::size_t tets) {
-    return 2 * vertices * (sizeof(std::int32_t *) + sizeof(std::uint32_t)) + tets * sizeof(Tet) / much * (much + 1);
+    return StarLists::bytes(vertices, 4 * tets / much * (much + 1)) + StarLists::bytes(vertices, 0);
   }
 
  private:

@@ -70,6 +70,10 @@ class StarLists {
   }
   void clear(std::int32_t v) { count_[std::size_t(v)] = 0; }
 
+  /// What lists of so many entries in all take.
+  static constexpr std::size_t bytes(std::size_t vertices, std::size_t entries) {
+    return vertices * (sizeof(std::int32_t *) + sizeof(std::uint32_t)) + entries * sizeof(std::int32_t);
+  }
   /// Of the lists that lie side by side.
   std::size_t room() const {
     std::size_t sum = 0;
