@@ -325,7 +325,8 @@ enum {
                                    taken where a linear field would be wrong, both are remeshed, one pass follows */
   TETLOD_OPT_MAX_ERROR = 22,    /* real, "max-error": bound of the error at every original vertex, as a fraction of the
                                    values' range, for every field that steers; one that lies outside the result is
-                                   compared at the nearest point of its boundary. Begins with target-ratio (0: where the
+                                   compared at the nearest point of its boundary, and in tets that it is out of
+                                   by less than 1e-6 in barycentric weight. Begins with target-ratio (0: where the
                                    error is about twice the bound, or twice 0.04), changes values and takes the vertices
                                    that it needs; 0, the default: none. Where it cannot be held: TETLOD_ERR_MAX_ERROR */
   TETLOD_OPT_MAX_DEVIATION = 23, /* real, "max-deviation": bound of the distance between the boundaries of original and

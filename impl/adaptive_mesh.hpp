@@ -61,6 +61,12 @@ class AdaptiveMesh : public TetComplex {
     for (std::size_t i = 1; i < m; i++) sum += counts[i] * counts[i];
     return sum;
   }
+  /// Of a residual: as if all ranges were the first's.
+  double largest_part(const Values<m> &residual) const {
+    double largest = std::abs(residual[0]);
+    for (std::size_t i = 1; i < m; i++) largest = std::max(largest, scales.relative[i] * std::abs(residual[i]));
+    return largest;
+  }
 
   template <class Visit>
   void for_probes(std::int32_t t, const Visit &visit) const {

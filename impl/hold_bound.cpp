@@ -6,7 +6,6 @@
 #include "flip_tets.hpp"
 #include "give_way.hpp"
 #include "most_needed.hpp"
-#include "surface_distance.hpp"
 
 namespace tetlod {
 
@@ -25,19 +24,11 @@ constexpr double flattest = 1e-11;
 /// Sweeps that also flip, and in which values give way; the sweeps after them insert alone, which ends.
 constexpr int flipping_sweeps = 3, yielding_sweeps = 12;
 
-/// Of a residual: as if all ranges were the first's.
-template <std::size_t m>
-double largest_part(const AdaptiveMesh<m> &mesh, const Values<m> &residual) {
-  double largest = std::abs(residual[0]);
-  for (std::size_t k = 1; k < m; k++) largest = std::max(largest, mesh.scales.relative[k] * std::abs(residual[k]));
-  return largest;
-}
-
 template <std::size_t m>
 double error_at(const AdaptiveMesh<m> &mesh, const TetFrame &frame, std::int32_t t, std::int32_t p) {
   double w[4];
   frame.weights(mesh.probes[std::size_t(p)].point, w);
-  return largest_part(mesh, mesh.residual(mesh.tets[std::size_t(t)], w, mesh.probes[std::size_t(p)]));
+  return mesh.largest_part(mesh.residual(mesh.tets[std::size_t(t)], w, mesh.probes[std::size_t(p)]));
 }
 
 template <std::size_t m>
@@ -153,25 +144,6 @@ LargestError largest_error(const AdaptiveMesh<m> &mesh, Job &job) {
 }
 
 template <std::size_t m>
-Array<std::int32_t> beyond_from_outside(const MeshView &original, double bound, Job &job, const AdaptiveMesh<m> &mesh) {
-  Array<Triangle> faces(&job.memory);
-  Array<std::int32_t> beyond(&job.memory), tet_of_face(&job.memory);
-  mesh.find_boundary(faces, tet_of_face);
-  const NearestTriangle boundary(mesh.points, faces, 8, job);
-  for (std::size_t i = 0; i < mesh.outside.size(); i++) {
-    if (i % 256 == 0) job.poll(0.95);
-    if (!mesh.outside[i]) continue;
-    const std::int32_t v = mesh.vertex_of_probe[i];
-    const NearestPoint at = boundary.nearest(original.points[std::size_t(v)]);
-    const Triangle &face = faces[std::size_t(at.triangle)];
-    const double w[4] = {at.weights[0], at.weights[1], at.weights[2], 0};
-    if (largest_part(mesh, mesh.residual({face[0], face[1], face[2], face[0]}, w, mesh.probes[i])) > bound)
-      beyond.push_back(v);
-  }
-  return beyond;
-}
-
-template <std::size_t m>
 Array<std::int32_t> hold_bound(double bound, Job &job, AdaptiveMesh<m> &mesh) {
   return LargestErrors<m>(job, mesh).hold(bound);
 }
@@ -186,16 +158,12 @@ template LargestError largest_error(const AdaptiveMesh<2> &, Job &);
 template LargestError largest_error(const AdaptiveMesh<3> &, Job &);
 template LargestError largest_error(const AdaptiveMesh<4> &, Job &);
 template Array<std::int32_t> hold_bound(double, Job &, AdaptiveMesh<1> &);
-template Array<std::int32_t> beyond_from_outside(const MeshView &, double, Job &, const AdaptiveMesh<1> &);
 template void lower_largest(std::int64_t, Job &, AdaptiveMesh<1> &);
 template Array<std::int32_t> hold_bound(double, Job &, AdaptiveMesh<2> &);
-template Array<std::int32_t> beyond_from_outside(const MeshView &, double, Job &, const AdaptiveMesh<2> &);
 template void lower_largest(std::int64_t, Job &, AdaptiveMesh<2> &);
 template Array<std::int32_t> hold_bound(double, Job &, AdaptiveMesh<3> &);
-template Array<std::int32_t> beyond_from_outside(const MeshView &, double, Job &, const AdaptiveMesh<3> &);
 template void lower_largest(std::int64_t, Job &, AdaptiveMesh<3> &);
 template Array<std::int32_t> hold_bound(double, Job &, AdaptiveMesh<4> &);
-template Array<std::int32_t> beyond_from_outside(const MeshView &, double, Job &, const AdaptiveMesh<4> &);
 template void lower_largest(std::int64_t, Job &, AdaptiveMesh<4> &);
 
 }  // namespace tetlod

@@ -21,11 +21,6 @@ LargestError largest_error(const AdaptiveMesh<m> &mesh, Job &job);
 template <std::size_t m>
 Array<std::int32_t> hold_bound(double bound, Job &job, AdaptiveMesh<m> &mesh);
 
-/// The original vertices outside of the mesh where the bound does not hold at the nearest point of the boundary: what
-/// serves them may be an inner vertex just beneath it, which nobody sees from there.
-template <std::size_t m>
-Array<std::int32_t> beyond_from_outside(const MeshView &original, double bound, Job &job, const AdaptiveMesh<m> &mesh);
-
 /// Does the same where the error is the largest of all, until the mesh has about so many tets.
 template <std::size_t m>
 void lower_largest(std::int64_t tets, Job &job, AdaptiveMesh<m> &mesh);

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "adaptive_mesh.hpp"
+#include "beyond_outside.hpp"
 #include "fill_up.hpp"
 #include "fit_values.hpp"
 #include "flip_tets.hpp"
@@ -57,8 +58,7 @@ class Refinement {
     if (enough.most_vertices < double(original_.points.size())) place_probes(original_, every_vertex(), job_, mesh_);
     if (options_.bound > 0) {
       report_.beyond_bound = hold_bound(options_.bound, job_, mesh_);
-      if (report_.beyond_bound.empty())
-        report_.beyond_bound = beyond_from_outside(original_, options_.bound, job_, mesh_);
+      if (report_.beyond_bound.empty()) report_.beyond_bound = beyond_outside(original_, options_.bound, job_, mesh_);
     } else {
       use_up_tets();
     }

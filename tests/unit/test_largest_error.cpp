@@ -1,6 +1,7 @@
 // The largest errors of a small mesh: found, lowered one after another, and gone when every vertex is served.
 #include <gtest/gtest.h>
 
+#include "beyond_outside.hpp"
 #include "hold_bound.hpp"
 #include "meshes.hpp"
 #include "place_probes.hpp"
@@ -138,6 +139,33 @@ TEST(PlaceProbes, TakesVerticesThatAreAHairOutsideToTheBoundary) {
     ASSERT_NE(at, mesh.vertex_of_probe.end());
     EXPECT_LE(mesh.probes[std::size_t(at - mesh.vertex_of_probe.begin())].point.z, 1) << hair;
   }
+}
+
+/// A wall of value 0 at z = 0, a vertex `beneath` it of value 1, which makes a sliver there, and an original vertex of
+/// value 0 a hair above the two.
+std::vector<std::int32_t> beyond_above_sliver(double beneath, double value_of_wall, double bound) {
+  const Vec3 middle(0.3, 0.3, 0);
+  const Mesh coarse{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, middle - Vec3(0, 0, beneath), {0.3, 0.3, -1}},
+                    {},
+                    {{0, 2, 1, 3}, {0, 3, 1, 4}, {1, 3, 2, 4}, {2, 3, 0, 4}}};
+  Mesh original = coarse;
+  original.scalars = {value_of_wall, value_of_wall, value_of_wall, 1, 1, 0};
+  original.points.push_back(middle + Vec3(0, 0, 1e-9));
+  original.tets.push_back({0, 1, 2, 5});
+  Host host;
+  AdaptiveMesh<1> mesh(host.memory);
+  put_among(original, coarse, true, host, mesh);
+  for (std::size_t v = 0; v < mesh.values.size(); v++) mesh.values[v] = {original.scalars[v]};
+  const Array<std::int32_t> beyond = beyond_outside(original.view(), bound, host.job, mesh);
+  return {beyond.begin(), beyond.end()};
+}
+
+TEST(BeyondOutside, FindsWhatIsBehindASliver) {
+  const std::vector<std::int32_t> none, above{5};
+  EXPECT_EQ(beyond_above_sliver(1e-8, 0, 0.9), above);
+  EXPECT_EQ(beyond_above_sliver(1e-8, 0, 1.1), none);
+  EXPECT_EQ(beyond_above_sliver(1e-2, 0, 0.9), none) << "no reader finds it behind so thick a tet";
+  EXPECT_EQ(beyond_above_sliver(1e-2, 1, 0.9), above) << "at the wall";
 }
 
 }  // namespace
