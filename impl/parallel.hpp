@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <functional>
 #include <memory>
 
 namespace tetlod {
@@ -46,6 +47,13 @@ class Parallel {
       });
     });
     static_cast<void>(done.load(std::memory_order_acquire));
+  }
+
+  /// All of these steps, of which none needs another.
+  template <class... Steps>
+  void at_once(const Steps &...steps) const {
+    const std::function<void()> all[] = {std::cref(steps)...};
+    for_blocks(sizeof...(steps), 1, [&](std::size_t i, std::size_t) { all[i](); });
   }
 
   /// body(part, begin, end) for a part of [0, count) for each thread: where each has to look at all of something, and

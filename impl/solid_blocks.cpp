@@ -68,16 +68,10 @@ void SolidBlocks::find_borders(const SolidComplex &mesh, Job &job) {
     const unsigned first = block_of(t[0]);
     return ((first ^ block_of(t[1])) | (first ^ block_of(t[2])) | (first ^ block_of(t[3]))) != 0;
   };
-  Array<Array<std::int32_t>> crossing(mesh.tets.size() / stretch + 1, &job.memory);
-  job.parallel.for_blocks(mesh.tets.size(), stretch, [&](std::size_t begin, std::size_t end) {
-    Array<std::int32_t> &of_stretch = crossing[begin / stretch];
-    for (std::size_t t = begin; t < end; t++)
-      if (mesh.has_tet(std::int32_t(t)) && crosses(mesh.tets[t])) of_stretch.push_back(std::int32_t(t));
-    job.poll(0);
+  for_each(mesh.tets.size(), job, [&](std::size_t t) {
+    if (!mesh.has_tet(std::int32_t(t)) || !crosses(mesh.tets[t])) return;
+    for (std::int32_t v : mesh.tets[t]) set_flag(at_border_[std::size_t(v)]);
   });
-  for (const Array<std::int32_t> &of_stretch : crossing)
-    for (std::int32_t t : of_stretch)
-      for (std::int32_t v : mesh.tets[std::size_t(t)]) at_border_[std::size_t(v)] = 1;
 }
 
 }  // namespace tetlod

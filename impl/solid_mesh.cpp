@@ -40,13 +40,10 @@ template <std::size_t m>
 SolidRemains<m> SolidMesh<m>::take_remains(Span<const std::int32_t> number, Job &job) {
   for (StarLists *lists : {&tets_of, &triangles_of}) *lists = StarLists(0, job);  // first, to make room
   const auto is_left = [&](std::size_t v) { return number[v] >= 0; };
-  keep_where(origin, job, is_left);
-  keep_where(points, job, is_left);
-  keep_where(ranks, job, is_left);
-  keep_where(lengths_, job, is_left);
-  keep_where(quadrics_, job, is_left);
-  keep_left(tets, number, job);
-  keep_left(triangles, number, job);
+  job.parallel.at_once([&] { keep_where(quadrics_, job, is_left); },  // the longest ones first
+                       [&] { keep_left(tets, number, job); }, [&] { keep_where(points, job, is_left); },
+                       [&] { keep_where(lengths_, job, is_left); }, [&] { keep_where(origin, job, is_left); },
+                       [&] { keep_where(ranks, job, is_left); }, [&] { keep_left(triangles, number, job); });
   SolidRemains<m> remains(job.memory);
   remains.measures = measures;
   remains.origin = std::move(origin);

@@ -51,8 +51,7 @@ void SolidProgress::follow(Span<const std::int32_t> origin, std::size_t original
 void SolidProgress::close_gaps(Span<const std::int32_t> number, Job &job) {
   const auto renumber = [&](std::int32_t &v) { v = v < 0 ? v : number[std::size_t(v)]; };
   const auto is_left = [&](std::size_t v) { return number[v] >= 0; };
-  keep_where(cheapest, job, is_left);
-  keep_where(moved, job, is_left);
+  job.parallel.at_once([&] { keep_where(cheapest, job, is_left); }, [&] { keep_where(moved, job, is_left); });
   for_each(cheapest.size(), job, [&](std::size_t v) { renumber(cheapest[v].other); });
   for (std::int32_t &v : changed) renumber(v);
   if (!follows()) return;

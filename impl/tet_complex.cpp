@@ -37,28 +37,38 @@ void TetComplex::connect(Job &job) {
   find_touching(job);
 }
 
-/// Vertices that have tets beyond those that their faces lead to, and the ends of edges that do.
+/// Where the solid touches itself at a vertex, or along an edge.
 void TetComplex::find_touching(Job &job) {
-  Array<std::int32_t> count(points.size(), 0, &memory_), around(&memory_);
-  for (const Tet &t : tets)
-    for (std::int32_t v : t) count[std::size_t(v)]++;
-  for (std::size_t v = 0; v < points.size(); v++) {
-    if (v % 1024 == 0) job.poll(0.1);
-    if (!fixed[v]) continue;
-    star(std::int32_t(v), around);
-    if (std::int32_t(around.size()) != count[v]) fixed[v] = touching;
+  Array<std::int32_t> count(points.size(), 0, &memory_);
+  for (std::size_t t = 0; t < tets.size(); t++) {
+    if (t % stretch == 0) job.poll(0.1);
+    for (std::int32_t v : tets[t]) count[std::size_t(v)]++;
   }
-  Array<std::pair<std::int32_t, std::int32_t>> edges(&memory_);  // of the boundary's triangles
-  for (std::size_t t = 0; t < tets.size(); t++)
-    for (int k = 0; k < 4; k++) {
-      if (neighbours[t][std::size_t(k)] >= 0) continue;
-      const Triangle f = sorted_face(tets[t], k);
-      for (const auto &[a, b] : {std::pair(f[0], f[1]), std::pair(f[0], f[2]), std::pair(f[1], f[2])})
-        edges.push_back({a, b});
+  job.parallel.for_blocks(points.size(), 512, [&](std::size_t begin, std::size_t end) {
+    Array<std::int32_t> around(&memory_), rim(&memory_);
+    for (std::size_t v = begin; v < end; v++) {
+      if (!fixed[v]) continue;
+      star(std::int32_t(v), around);
+      if (std::int32_t(around.size()) != count[v] || touches_along_edge(std::int32_t(v), around, rim))
+        fixed[v] = touching;
     }
-  std::sort(edges.begin(), edges.end(), PollingLess(job, 0.1, std::less<>()));
-  for (std::size_t i = 2; i < edges.size(); i++)
-    if (edges[i] == edges[i - 2]) fixed[std::size_t(edges[i].first)] = fixed[std::size_t(edges[i].second)] = touching;
+    job.poll(0.1);
+  });
+}
+
+/// around: the tets of v. Of an edge of the boundary two of its triangles have both ends.
+bool TetComplex::touches_along_edge(std::int32_t v, Span<const std::int32_t> around, Array<std::int32_t> &rim) const {
+  rim.clear();
+  for (std::int32_t t : around)
+    for (std::size_t k = 0; k < 4; k++) {
+      if (neighbours[std::size_t(t)][k] >= 0 || tets[std::size_t(t)][k] == v) continue;
+      for (int corner : tet_face[k])
+        if (const std::int32_t u = tets[std::size_t(t)][std::size_t(corner)]; u != v) rim.push_back(u);
+    }
+  std::sort(rim.begin(), rim.end());
+  for (std::size_t i = 2; i < rim.size(); i++)
+    if (rim[i] == rim[i - 2]) return true;
+  return false;
 }
 
 std::int32_t TetComplex::slot() {

@@ -92,6 +92,7 @@ class TetComplex {
   };
   std::int32_t slot();
   void find_touching(Job &job);
+  bool touches_along_edge(std::int32_t v, Span<const std::int32_t> around, Array<std::int32_t> &rim) const;
   template <class List, class Push>
   bool flood(const std::int32_t *simplex, std::size_t size, List &around, const Push &push) const;
 

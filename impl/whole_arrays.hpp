@@ -12,11 +12,26 @@ namespace tetlod {
 /// The items that one thread takes at a time.
 constexpr std::size_t stretch = 1 << 14;
 
-/// As resize, some items at a time: to touch the room for all at once takes long.
+/// Room for so many items, which the system gives page by page when they are touched first: that takes longer than to
+/// write to them, unless all threads touch some.
+template <class T>
+void reserve(Array<T> &array, std::size_t size, Job &job) {
+  constexpr std::size_t page = 4096, some = std::size_t(1) << 20;
+  array.reserve(size);
+  const std::size_t begin = array.size() * sizeof(T), end = size * sizeof(T);
+  if (job.parallel.threads() == 1 || end < begin + some) return;
+  auto *const bytes = reinterpret_cast<volatile unsigned char *>(array.data());
+  job.parallel.for_blocks(end - begin, some, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; i += page) bytes[begin + i] = 0;
+    job.poll(0);
+  });
+}
+
+/// As resize, some items at a time: to write to the room for all at once takes long.
 template <class T, class... Value>
 void grow(Array<T> &array, std::size_t size, Job &job, const Value &...value) {
   constexpr std::size_t some = (std::size_t(1) << 22) / sizeof(T);
-  array.reserve(size);
+  reserve(array, size, job);
   while (array.size() < size) {
     array.resize(std::min(size, array.size() + some), value...);
     job.poll(0);
@@ -30,16 +45,6 @@ Array<T> array_of(std::size_t size, const T &value, Job &job) {
   return array;
 }
 
-/// Of each point, whether a tet has it.
-inline Array<std::uint8_t> find_used(Span<const Tet> tets, std::size_t points, Job &job) {
-  Array<std::uint8_t> used(points, 0, &job.memory);
-  for (std::size_t t = 0; t < tets.size(); t++) {
-    if (t % stretch == 0) job.poll(0);
-    for (std::int32_t v : tets[t]) used[std::size_t(v)] = 1;
-  }
-  return used;
-}
-
 /// visit(i) for each of `count`.
 template <class Visit>
 void for_each(std::size_t count, Job &job, const Visit &visit) {
@@ -47,6 +52,18 @@ void for_each(std::size_t count, Job &job, const Visit &visit) {
     for (std::size_t i = begin; i < end; i++) visit(i);
     job.poll(0);
   });
+}
+
+/// Flags that some threads may set at the same time: all say the same.
+inline void set_flag(std::uint8_t &flag) { __atomic_store_n(&flag, std::uint8_t(1), __ATOMIC_RELAXED); }
+
+/// Of each point, whether a tet has it.
+inline Array<std::uint8_t> find_used(Span<const Tet> tets, std::size_t points, Job &job) {
+  Array<std::uint8_t> used(points, 0, &job.memory);
+  for_each(tets.size(), job, [&](std::size_t t) {
+    for (std::int32_t v : tets[t]) set_flag(used[std::size_t(v)]);
+  });
+  return used;
 }
 
 /// What add(part, i) makes of the items of each stretch of `count`, from `none` on.
