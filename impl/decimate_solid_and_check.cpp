@@ -3,6 +3,7 @@
 #include "deviation.hpp"
 #include "find_crossing.hpp"
 #include "lower_deviation.hpp"
+#include "nested_solids.hpp"
 #include "status.hpp"
 #include "tet_checks.hpp"
 
@@ -35,7 +36,7 @@ std::string check_surface_of(const SurfaceTopology &topology, std::size_t fields
     find_topology(coarse.surface.points, coarse.surface.triangles, job, coarse.topology);
     if (!same_topology(coarse.topology, topology)) return "the boundary has another topology";
     refuse_crossing(coarse.surface, 0, job);
-    if (topology.components > 1) refuse_nested_solids(coarse.surface, coarse.topology, 0, job);
+    refuse_nested_solids(coarse.surface, coarse.topology, 0, job);
     return {};
   } catch (const Error &error) {
     if (error.status() == Status::mesh_intersecting || error.status() == Status::mesh_nonmanifold) return error.what();

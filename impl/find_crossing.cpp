@@ -31,20 +31,6 @@ std::array<long long, 3> names(const Surface &surface, std::int32_t triangle, st
   return {numbers.vertex(t[0]), numbers.vertex(t[1]), numbers.vertex(t[2])};
 }
 
-/// The winding number in the middle of a triangle: one half on a sound surface, where material is on one side and none
-/// on the other.
-double winding_on(const Surface &surface, std::int32_t triangle) {
-  const std::array<Vec3, 3> own = corners(surface, triangle);
-  const Vec3 middle = (own[0] + own[1] + own[2]) / 3.0;
-  double sum = 0;
-  for (std::int32_t t = 0; t < std::int32_t(surface.triangles.size()); t++) {
-    if (t == triangle) continue;
-    const std::array<Vec3, 3> other = corners(surface, t);
-    sum += winding_share(middle, other[0], other[1], other[2]);
-  }
-  return sum;
-}
-
 }  // namespace
 
 std::pair<std::int32_t, std::int32_t> find_crossing(const Surface &surface, Job &job) {
@@ -77,21 +63,6 @@ void refuse_crossing(const Surface &surface, std::int32_t index_base, Job &job) 
        "the boundary crosses or touches itself: its faces of vertices %lld, %lld, %lld and of vertices %lld, %lld, "
        "%lld meet",
        first[0], first[1], first[2], second[0], second[1], second[2]);
-}
-
-void refuse_nested_solids(const Surface &surface, const SurfaceTopology &topology, std::int32_t index_base, Job &job) {
-  std::int32_t seen = -1;
-  for (std::int32_t t = 0; t < std::int32_t(surface.triangles.size()); t++) {
-    if (topology.component[std::size_t(t)] <= seen) continue;  // numbered by their first triangles
-    seen = topology.component[std::size_t(t)];
-    job.poll(1);
-    const double sides = winding_on(surface, t);
-    if (sides > 0 && sides < 1) continue;
-    const std::array<long long, 3> face = names(surface, t, index_base);
-    fail(Status::mesh_intersecting,
-         "solids overlap: the boundary face of vertices %lld, %lld, %lld lies in another solid", face[0], face[1],
-         face[2]);
-  }
 }
 
 }  // namespace tetlod

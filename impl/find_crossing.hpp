@@ -1,11 +1,10 @@
-// Does a surface cross itself, or lie in its own inside?
+// Does a surface cross itself?
 #pragma once
 #include <cstdint>
 #include <utility>
 
 #include "job.hpp"
 #include "mesh.hpp"
-#include "surface_topology.hpp"
 
 namespace tetlod {
 
@@ -14,8 +13,5 @@ std::pair<std::int32_t, std::int32_t> find_crossing(const Surface &surface, Job 
 
 /// Throws Status::mesh_intersecting with the vertices of both triangles, numbered from `index_base`.
 void refuse_crossing(const Surface &surface, std::int32_t index_base, Job &job);
-
-/// Throws Status::mesh_intersecting where a component lies in the material of another: a solid in a solid.
-void refuse_nested_solids(const Surface &surface, const SurfaceTopology &topology, std::int32_t index_base, Job &job);
 
 }  // namespace tetlod

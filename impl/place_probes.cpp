@@ -132,17 +132,45 @@ void add_inner(const MeshView &original, double most, Job &job, Array<Probe<m>> 
   });
 }
 
+/// Whether those side by side in memory are so in space, of a sample.
+template <class Place>
+bool are_near(std::size_t count, const Place &place) {
+  constexpr std::size_t enough = 1024;
+  constexpr double near = 0.05;  // of the diagonal; places anywhere are 0.3 apart
+  Box box;
+  double way = 0;
+  std::size_t looked_at = 0;
+  for (std::size_t i = 1; i < count; i += count / enough + 1, looked_at++) {
+    way += glm::distance(place(i - 1), place(i));
+    box.add(place(i));
+  }
+  return way <= near * box.diagonal() * double(looked_at);
+}
+
+/// Neighbours in space after each other: as they are, or else sorted.
+template <class Place>
+Array<std::int32_t> order_in_space(std::size_t count, const Place &place, Job &job) {
+  if (!are_near(count, place)) return order_by_place(count, place, job);
+  Array<std::int32_t> order = array_of(count, 0, job);
+  std::iota(order.begin(), order.end(), 0);
+  return order;
+}
+
 /// Finds tets by walking, and where the walk meets the boundary, by a tree.
 class Locator {
  public:
   Locator(const TetComplex &mesh, Job &job)
-      : mesh_(mesh), frames_(&job.memory), together_(tets_an_item(mesh.tets.size())), tree_(job.memory) {
+      : mesh_(mesh),
+        frames_(&job.memory),
+        order_(order_of(mesh, job)),
+        together_(tets_an_item(mesh.tets.size())),
+        tree_(job.memory) {
     while (!mesh.alive(start_)) start_++;
-    Array<Box> boxes(mesh.tets.size() / together_ + 1, &job.memory);
+    Array<Box> boxes(order_.size() / together_ + 1, &job.memory);
     grow(frames_, mesh.tets.size(), job);
-    job.parallel.for_blocks(mesh.tets.size(), block, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t t = begin; t < end; t++)
-        if (mesh.alive(std::int32_t(t))) add(std::int32_t(t), boxes[t / together_]);
+    job.parallel.for_blocks(order_.size(), block, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; i++)
+        if (mesh.alive(order_[i])) add(order_[i], boxes[i / together_]);
       job.poll(0.1);
     });
     tree_.build(std::move(boxes), leaf, job, 0.1);
@@ -157,8 +185,14 @@ class Locator {
  private:
   static constexpr std::int64_t leaf = 16;
 
-  /// How many tets are one item of the tree. Those side by side in memory are so in space, mostly; and of many tets,
-  /// few points go down the tree. No two blocks have tets of one item.
+  /// Those that were inserted one after another are anywhere.
+  static Array<std::int32_t> order_of(const TetComplex &mesh, Job &job) {
+    const auto place = [&](std::size_t t) { return mesh.points[std::size_t(mesh.tets[t][1])]; };  // of free slots, too
+    return order_in_space(mesh.tets.size(), place, job);
+  }
+
+  /// How many tets, side by side in space, are one item of the tree: of many tets, few points go down the tree. No two
+  /// blocks have tets of one item.
   static std::size_t tets_an_item(std::size_t tets) {
     constexpr std::size_t most_items = 20000;
     std::size_t together = 1;
@@ -190,12 +224,13 @@ class Locator {
     std::int32_t found = -1;
     tree_.any_overlap({p, p}, [&](std::int32_t item) {
       const std::size_t first = std::size_t(item) * together_;
-      for (std::size_t t = first; t < std::min(first + together_, frames_.size()) && best < 0; t++) {
+      for (std::size_t i = first; i < std::min(first + together_, order_.size()) && best < 0; i++) {
         double w[4];
-        const double least = mesh_.alive(std::int32_t(t)) ? frames_[t].weights(p, w) : -1;
+        const std::int32_t t = order_[i];
+        const double least = mesh_.alive(t) ? frames_[std::size_t(t)].weights(p, w) : -1;
         if (least <= best) continue;
         best = least;
-        found = std::int32_t(t);
+        found = t;
       }
       return best >= 0;
     });
@@ -205,6 +240,7 @@ class Locator {
   const TetComplex &mesh_;
   std::int32_t start_ = 0;
   Array<TetFrame> frames_;
+  Array<std::int32_t> order_;
   std::size_t together_;
   KdTree tree_;
 };
@@ -246,41 +282,16 @@ void project(Job &job, Array<std::int32_t> &home, AdaptiveMesh<m> &mesh) {
   });
 }
 
-/// Whether those side by side in memory are so in space, of a sample.
-template <std::size_t m>
-bool are_near(Span<const Probe<m>> probes) {
-  constexpr std::size_t enough = 1024;
-  constexpr double near = 0.05;  // of the diagonal; places anywhere are 0.3 apart
-  Box box;
-  double way = 0;
-  std::size_t count = 0;
-  for (std::size_t i = 1; i < probes.size(); i += probes.size() / enough + 1, count++) {
-    way += glm::distance(probes[i - 1].point, probes[i].point);
-    box.add(probes[i].point);
-  }
-  return way <= near * box.diagonal() * double(count);
-}
-
-/// Neighbours in space after each other, so that walks are short.
-template <std::size_t m>
-void append_in_order(Span<const Probe<m>> probes, Job &job, Array<std::int32_t> &order) {
-  const auto first = std::int32_t(order.size());
-  if (are_near(probes)) {
-    order.resize(order.size() + probes.size());
-    std::iota(order.begin() + first, order.end(), first);
-    return;
-  }
-  const auto place = [&](std::size_t i) { return probes[i].point; };
-  for (std::int32_t i : order_by_place(probes.size(), place, job)) order.push_back(first + i);
-}
-
 template <std::size_t m>
 Array<std::int32_t> find_homes(Job &job, const AdaptiveMesh<m> &mesh) {
   Array<std::int32_t> order(&job.memory), home(mesh.probes.size(), -1, &job.memory);
   order.reserve(mesh.probes.size());
-  const Span<const Probe<m>> probes(mesh.probes);
-  append_in_order(Span<const Probe<m>>(probes.data(), mesh.vertex_probes), job, order);
-  append_in_order(Span<const Probe<m>>(probes.data() + order.size(), probes.size() - order.size()), job, order);
+  const auto append = [&](std::size_t first, std::size_t end) {  // so that walks are short
+    const auto place = [&](std::size_t i) { return mesh.probes[first + i].point; };
+    for (std::int32_t i : order_in_space(end - first, place, job)) order.push_back(std::int32_t(first) + i);
+  };
+  append(0, mesh.vertex_probes);
+  append(mesh.vertex_probes, mesh.probes.size());
   const Locator locator(mesh, job);
   job.parallel.for_blocks(home.size(), block, [&](std::size_t begin, std::size_t end) {
     std::int32_t hint = -1;

@@ -3,34 +3,13 @@
 #include <algorithm>
 #include <tuple>
 
-#include "predicates.hpp"
+#include "ray.hpp"
 
 namespace tetlod {
 
 namespace {
 
 constexpr std::int32_t nowhere = -1, undecided = -2;
-
-/// In the plane of y and z: 1 when p is left of the line from a to b, -1 right of it. p is taken to be a little further
-/// along y, and much less along z, so that it is on no line; 0 when a and b fall together.
-int side(const Vec3 &a, const Vec3 &b, const Vec3 &p) {
-  if (const int exact = turn(a, b, p, 1, 2)) return exact;
-  if (a.z != b.z) return a.z > b.z ? 1 : -1;
-  return int(a.y < b.y) - int(a.y > b.y);
-}
-
-/// Where a triangle is seen from p, along x.
-enum class Place { beside, beyond, at, entered, left };
-
-/// Of a ray that comes along x to p: whether it went through the triangle, and to which side of it.
-Place place_of(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &p) {
-  const int facing = side(a, b, p);
-  if (facing == 0 || side(b, c, p) != facing || side(c, a, p) != facing) return Place::beside;
-  const int above = orientation(a, b, c, p);
-  if (above == 0) return Place::at;
-  if (above != facing) return Place::beyond;
-  return facing < 0 ? Place::entered : Place::left;
-}
 
 bool comes_before(const Vec3 &p, const Vec3 &q) { return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z); }
 
@@ -133,16 +112,14 @@ bool Solids::nest_shells(Job &job, DisjointSets &solids) {
 /// False when p lies on one. `own` is not asked.
 bool Solids::meet_shells(const Vec3 &p, std::int32_t own, Crossings &room) const {
   room.clear();
-  Box ray;
-  ray.low = {triangles_.box().low.x, p.y, p.z};
-  ray.high = p;
-  return !triangles_.any_overlap(ray, [&](std::int32_t triangle) {
+  return !triangles_.any_overlap(ray_to(p, triangles_.box()), [&](std::int32_t triangle) {
     const Triangle &t = surface_.triangles[std::size_t(triangle)];
     if (shell_of(t) == own) return false;
-    const Place place = place_of(points_[std::size_t(t[0])], points_[std::size_t(t[1])], points_[std::size_t(t[2])], p);
-    if (place == Place::entered) room.push_back({shell_of(t), 1});
-    if (place == Place::left) room.push_back({shell_of(t), -1});
-    return place == Place::at;
+    const RayEnd end =
+        end_of_ray(points_[std::size_t(t[0])], points_[std::size_t(t[1])], points_[std::size_t(t[2])], p);
+    if (end == RayEnd::entered) room.push_back({shell_of(t), 1});
+    if (end == RayEnd::left) room.push_back({shell_of(t), -1});
+    return end == RayEnd::at;
   });
 }
 

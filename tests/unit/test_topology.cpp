@@ -10,6 +10,7 @@
 #include "extract_boundary.hpp"
 #include "find_crossing.hpp"
 #include "meshes.hpp"
+#include "nested_solids.hpp"
 #include "remesh_surfaces.hpp"
 #include "status.hpp"
 #include "surface_topology.hpp"
@@ -312,6 +313,35 @@ TEST_F(Topology, SolidsInSolidsAreRefused) {
   Surface in_cavity = with(sphere(host.memory, 5, 0.7), true);
   append(in_cavity, sphere(host.memory, 4, 0.4));
   EXPECT_FALSE(nested(std::move(in_cavity)));
+}
+
+/// Each is looked at beside what a ray to it meets, not beside all.
+TEST_F(Topology, ASolidInASolidIsFoundAmongMany) {
+  constexpr int n = 30;
+  Surface surface(host.memory);
+  for (int i = 0; i < n * n * n; i++) {
+    const Vec3 low(2 * (i % n), 2 * (i / n % n) + 0.1 * (i % n), 2 * (i / n / n) + 0.2 * (i / n % n));
+    append(surface, box(host.memory, 1, low, low + Vec3(1)));
+    append(surface, box(host.memory, 1, low + Vec3(0.2), low + Vec3(0.8)), true);
+  }
+  const auto status_of = [&](Surface of) {
+    complete(of, [](const Vec3 &) { return 0.0; });
+    find(of);
+    EXPECT_GE(topology.components, 2 * n * n * n);
+    try {
+      refuse_nested_solids(of, topology, 0, host.job);
+      return Status::ok;
+    } catch (const Error &error) {
+      return error.status();
+    }
+  };
+  EXPECT_EQ(status_of(surface), Status::ok);
+  const Vec3 low(24, 24 + 1.2, 24 + 2.4);  // of one of them
+  Surface in_cavity = surface;
+  append(in_cavity, box(host.memory, 1, low + Vec3(0.3), low + Vec3(0.7)));
+  EXPECT_EQ(status_of(in_cavity), Status::ok);
+  append(surface, box(host.memory, 1, low + Vec3(0.05), low + Vec3(0.15)));
+  EXPECT_EQ(status_of(surface), Status::mesh_intersecting);
 }
 
 // What is no boundary of a solid

@@ -1,0 +1,96 @@
+#include "nested_solids.hpp"
+
+#include <cmath>
+
+#include "geometry.hpp"
+#include "host_numbers.hpp"
+#include "kd_tree.hpp"
+#include "ray.hpp"
+#include "status.hpp"
+
+namespace tetlod {
+
+namespace {
+
+class Nesting {
+ public:
+  Nesting(const Surface &surface, const SurfaceTopology &topology, Job &job)
+      : surface_(surface), job_(job), widest_(std::size_t(topology.components), -1, &job.memory), tree_(job.memory) {
+    find_widest(topology);
+    Array<Box> boxes(&job.memory);
+    boxes.reserve(surface.triangles.size());
+    for (const Triangle &t : surface.triangles) boxes.push_back(box_of(surface.points, t));
+    tree_.build(std::move(boxes), 8, job, 1);
+  }
+
+  /// A triangle of a component that lies in another's material; -1: there is none.
+  std::int32_t find() const {
+    Array<std::uint8_t> doubtful(widest_.size(), 0, &job_.memory);
+    job_.parallel.for_blocks(widest_.size(), 64, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t c = begin; c < end; c++) doubtful[c] = !is_sound_by_ray(widest_[c]);
+      job_.poll(1);
+    });
+    for (std::size_t c = 0; c < widest_.size(); c++)
+      if (doubtful[c] && !is_sound_by_winding(widest_[c])) return widest_[c];
+    return -1;
+  }
+
+ private:
+  const Vec3 &point(std::int32_t triangle, std::size_t k) const {
+    return surface_.points[std::size_t(surface_.triangles[std::size_t(triangle)][k])];
+  }
+  Vec3 normal(std::int32_t t) const { return area_vector(point(t, 0), point(t, 1), point(t, 2)); }
+  Vec3 middle(std::int32_t t) const { return (point(t, 0) + point(t, 1) + point(t, 2)) / 3.0; }
+
+  /// The triangle of each component that is the widest across x.
+  void find_widest(const SurfaceTopology &topology) {
+    for (std::int32_t t = 0; t < std::int32_t(surface_.triangles.size()); t++) {
+      std::int32_t &widest = widest_[std::size_t(topology.component[std::size_t(t)])];
+      if (widest < 0 || std::abs(normal(t).x) > std::abs(normal(widest).x)) widest = t;
+    }
+  }
+
+  /// A ray to the triangle comes out of material where that is behind it, and out of none otherwise. Exact, but that
+  /// the middle is rounded.
+  bool is_sound_by_ray(std::int32_t triangle) const {
+    const Vec3 p = middle(triangle);
+    int depth = 0;
+    const bool meets = tree_.any_overlap(ray_to(p, tree_.box()), [&](std::int32_t other) {
+      if (other == triangle) return false;
+      const RayEnd end = end_of_ray(point(other, 0), point(other, 1), point(other, 2), p);
+      depth += int(end == RayEnd::entered) - int(end == RayEnd::left);
+      return end == RayEnd::at;
+    });
+    return !meets && depth == int(normal(triangle).x > 0);
+  }
+
+  /// The winding number in the middle of a triangle is one half where material is on one side and none on the other.
+  bool is_sound_by_winding(std::int32_t triangle) const {
+    const Vec3 p = middle(triangle);
+    double sum = 0;
+    for (std::int32_t t = 0; t < std::int32_t(surface_.triangles.size()); t++)
+      if (t != triangle) sum += winding_share(p, point(t, 0), point(t, 1), point(t, 2));
+    job_.poll(1);
+    return sum > 0 && sum < 1;
+  }
+
+  const Surface &surface_;
+  Job &job_;
+  Array<std::int32_t> widest_;
+  KdTree tree_;
+};
+
+}  // namespace
+
+void refuse_nested_solids(const Surface &surface, const SurfaceTopology &topology, std::int32_t index_base, Job &job) {
+  if (topology.components < 2) return;
+  const std::int32_t t = Nesting(surface, topology, job).find();
+  if (t < 0) return;
+  const HostNumbers numbers = host_numbers(surface, index_base);
+  const Triangle &face = surface.triangles[std::size_t(t)];
+  fail(Status::mesh_intersecting,
+       "solids overlap: the boundary face of vertices %lld, %lld, %lld lies in another solid", numbers.vertex(face[0]),
+       numbers.vertex(face[1]), numbers.vertex(face[2]));
+}
+
+}  // namespace tetlod

@@ -1,0 +1,22 @@
+// A ray that comes along x to a point, and the triangles of a surface on its way: exact, and never through an edge.
+#pragma once
+#include "mesh.hpp"
+
+namespace tetlod {
+
+/// Where the ray ends, seen from a triangle: it went past it, did not reach it, ends at it, or went through it, to its
+/// inner or its outer side.
+enum class RayEnd { beside, before, at, entered, left };
+
+/// Of the ray to p and the triangle a, b, c, whose outer side is where it is counter-clockwise.
+RayEnd end_of_ray(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &p);
+
+/// The ray from the side of the box to p.
+inline Box ray_to(const Vec3 &p, const Box &from) {
+  Box ray;
+  ray.low = {from.low.x, p.y, p.z};
+  ray.high = p;
+  return ray;
+}
+
+}  // namespace tetlod
