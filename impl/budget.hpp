@@ -19,12 +19,14 @@ inline double ratio_of(const Options &options) { return options.target_ratio > 0
 /// With fewer tets, all that can be done is done soon.
 constexpr double small_mesh = 1e5;
 
-/// A coarse mesh by collapsing edges is more accurate; one from samples is there sooner, where the mesh is large and
-/// little of it is kept, or so few tets that TetGen makes them soon. A bound alone asks for accuracy.
+/// A coarse mesh by collapsing edges is more accurate; one from samples is there sooner, where the mesh is large, no
+/// thin one whose boundary takes longer, and little of it is kept, or so few tets that TetGen makes them soon. A bound
+/// alone asks for accuracy.
 inline bool samples_sooner(const Options &options, const Report &report) {
-  constexpr double soon_made = 13000, little = 0.04, most = 0.065;
+  constexpr double soon_made = 13000, little = 0.04, most = 0.065, thin = 0.125;
   const double tets = double(report.tets_in), ratio = options.target_ratio;
-  return tets >= small_mesh && ratio > 0 && ratio <= std::clamp(soon_made / tets, little, most);
+  return tets >= small_mesh && double(report.boundary_triangles_in) <= thin * tets && ratio > 0 &&
+         ratio <= std::clamp(soon_made / tets, little, most);
 }
 
 inline bool collapses_edges(const Options &options, const Report &report) {
@@ -57,6 +59,8 @@ constexpr double tets_a_point = 4.5, tets_a_part = 5;
 /// Share of the tets that is left to the vertices that refine() inserts.
 constexpr double spare = 0.05;
 constexpr int most_rounds = 6, most_restorations = 4;
+/// What is beyond the size by more misses it.
+constexpr double most_excess = 1.03;
 /// What the field's range counts as beside the diagonal, when the boundary is decimated: more costs geometry, and gains
 /// where a large share of the vertices is on the boundary.
 constexpr double field_weight = 0.3;

@@ -50,6 +50,7 @@ class SolidDecimator {
       rooms_.emplace_back(job.memory);
       works_.emplace_back(job.memory);
     }
+    if (!options.holds_bound) places_.give_way(progress_.gave_way);
     if (options.max_deviation > 0) deviation_.emplace(surface, options.max_deviation, job);
   }
 
@@ -121,9 +122,23 @@ class SolidDecimator {
 
   // ---- Rounds
 
+  /// As below; infinite: nothing is admissible, whatever gives way.
+  double limit_of_round() {
+    double limit = limit_by_costs();
+    while (limit == infinity && give_way()) limit = limit_by_costs();
+    return limit;
+  }
+
+  bool give_way() {
+    if (options_.holds_bound || progress_.gave_way == places_.most_ways) return false;
+    places_.give_way(++progress_.gave_way);
+    progress_.changed = left_;
+    return true;
+  }
+
   /// What an edge of the round may cost. Towards the end rounds get smaller, so that the last collapses are the
   /// cheapest.
-  double limit_of_round() {
+  double limit_by_costs() {
     choose_way();
     costs_.find_changed(job_);
     const double most = (progress_.removes() ? part_of_removals : part_of_round) * double(left_.size()),

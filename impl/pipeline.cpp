@@ -6,7 +6,7 @@
 #include "carry_fields.hpp"
 #include "cull_samples.hpp"
 #include "decimate_solid_and_check.hpp"
-#include "describe_boundary.hpp"
+#include "describe.hpp"
 #include "footprint.hpp"
 #include "geometry.hpp"
 #include "hash.hpp"
@@ -103,32 +103,34 @@ class Pipeline {
            std::int64_t(mesh_.tets.size()) > report_.tets_in;
   }
 
-  /// By collapses, or, where they lead to no sound mesh of the size, by remeshing. Returns whether the mesh is by
-  /// collapses.
+  /// By collapses, or from samples; where the one way leads to no sound mesh of the size, by the other, and the smaller
+  /// mesh is taken. Returns whether it is by collapses.
   bool coarsen(Worker &worker) {
     CoarseSolid coarse(job_.memory);
-    const bool collapsed = collapses_edges(options_, report_) && collapse_edges(coarse);
-    if (!collapsed && remesh_instead(coarse, worker)) return false;
-    take_over(std::move(coarse));
-    return true;
+    mesh_.tets.clear();
+    if (collapses_edges(options_, report_)) {
+      if (!collapse_edges(coarse)) remesh_to_target(worker);
+    } else if (!remesh_to_target(worker) && options_.clean_edges == 0) {
+      collapse_edges(coarse);
+    }
+    if (!coarse.is_sound && mesh_.tets.empty()) throw Error(Status::remesh, failure_);
+    const bool collapsed = coarse.is_sound && (mesh_.tets.empty() || coarse.mesh.tets.size() < mesh_.tets.size());
+    if (collapsed) take_over(std::move(coarse));
+    return collapsed;
   }
 
-  /// False: what collapses led to is sound, though too large, and remeshing leads to no smaller mesh.
-  bool remesh_instead(const CoarseSolid &coarse, Worker &worker) {
+  /// False: to too many tets, or, as TetGen finds no way, to none.
+  bool remesh_to_target(Worker &worker) {
+    decimate_and_sample();
     try {
-      remesh_to_target(worker);
+      simplify(worker);
+      meet_target(worker);
     } catch (const Error &error) {
-      if (error.status() != Status::remesh || !coarse.is_sound) throw;
+      if (error.status() != Status::remesh) throw;
       return false;
     }
-    return !coarse.is_sound || mesh_.tets.size() <= coarse.mesh.tets.size();
-  }
-
-  void remesh_to_target(Worker &worker) {
-    decimate_and_sample();
-    simplify(worker);
-    meet_target(worker);
     reconstruct_field();
+    return double(mesh_.tets.size()) <= most_excess * double(budget_.tets);
   }
 
   /// To the budget, or to what suits the bound. False: that way leads to no sound mesh of the size.
@@ -147,7 +149,7 @@ class Pipeline {
         decimate_solid_and_check(original_.view, boundary_, prepared_.surface(job_), prepared_.topology(job_), options,
                                  sizes.lowered, history, job_, coarse);
     report_.reused_collapses = coarse.reused;
-    if (!wrong.empty() && job_.log) job_.log(1, ("edges collapsed in vain, so that it is remeshed: " + wrong).c_str());
+    if (!wrong.empty() && job_.log) job_.log(1, ("edges collapsed in vain: " + wrong).c_str());
     return wrong.empty();
   }
 
@@ -158,11 +160,7 @@ class Pipeline {
     topology_ = std::move(coarse.topology);
     report_.max_deviation = coarse.deviation / original_.box.diagonal();
     describe_simplified_boundary(topology_, report_);
-    report_.samples = report_.selected_samples = std::int64_t(mesh_.points.size()) - report_.boundary_points_out;
-    // Of a round before:
-    report_.samples_outside = report_.samples_too_near = report_.steiner_points = report_.reused_samples = 0;
-    report_.cleaned_edges = report_.reused_triangles = report_.boundary_retries = report_.remesh_attempts = 0;
-    report_.worker_peak_bytes = 0;
+    describe_collapses(std::int64_t(mesh_.points.size()), report_);
   }
 
   double deviation_limit() const { return options_.max_deviation * original_.box.diagonal(); }
@@ -246,13 +244,7 @@ class Pipeline {
       if (any_strict_policy(options_)) refuse_defects(find_defects(input_, options_, job_), options_);
       prepare_original(input_, options_, job_, original_);
     }
-    report_.points_in = input_.xyz[0].tuples;
-    report_.tets_in = input_.tets.tuples;
-    report_.merged_points = original_.merged_points;
-    report_.nonfinite_points = original_.nonfinite_points;
-    report_.dropped_tets = original_.dropped_tets;
-    report_.scalar_min = original_.scalar_min;
-    report_.scalar_max = original_.scalar_max;
+    describe_input(input_, original_, report_);
   }
 
   void extract() {

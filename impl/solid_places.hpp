@@ -24,8 +24,12 @@ class SolidPlaces {
   SolidPlaces(const SolidMesh<m> &mesh, bool holds_bound, std::size_t boundary_vertices)
       : mesh_(mesh),
         kept_of_flat_(holds_bound ? 1 : kept_of_flat),
-        kept_of_sliver_(holds_bound ? 1 : kept_of_sliver),
+        kept_of_sliver_(holds_bound ? 1 : kept_of_sliver[0]),
         volume_of_collapse_(volume_to_lose * mesh.measures.volume / double(boundary_vertices)) {}
+
+  /// Where nothing is admissible any more: how often rules may give way then, and what they ask for when they did.
+  static constexpr int most_ways = 2;
+  void give_way(int times) { kept_of_sliver_ = kept_of_sliver[times]; }
 
   /// An edge that was found at v collapses to the best place near it, or, where that is not admissible, to the best
   /// along it, at t.
@@ -50,7 +54,7 @@ class SolidPlaces {
   /// What tets that are flat have to keep of their shape, and slivers of the boundary of their quality. In a graded
   /// mesh most tets are flat; on walls that are stretched all triangles are slivers, as good as each other but for a
   /// little. Nothing could go there without making some worse.
-  static constexpr double kept_of_flat = 0.7, kept_of_sliver = 0.999;
+  static constexpr double kept_of_flat = 0.7, kept_of_sliver[1 + most_ways] = {0.999, 0.7, 0.4};
   /// A best place further off than this part of the edge is none.
   static constexpr double longest_step = 0.5;
 

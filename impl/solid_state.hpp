@@ -36,7 +36,8 @@ struct SolidProgress {
 
   /// For larger targets the round that is done would have been another one.
   void allow(double target) { largest_target = std::min(largest_target, std::int64_t(std::floor(target))); }
-  /// Far from so many tets vertices are removed, near them edges collapse. From here on it is so with `count` tets.
+  /// Far from so many tets vertices are removed, near them, or where no more may go, edges collapse. From here on it is
+  /// so with `count` tets.
   void choose_way(std::int64_t count, std::int64_t tets);
   /// Vertices, which costs are of.
   bool removes() const { return first_near == 0; }
@@ -47,6 +48,7 @@ struct SolidProgress {
   std::int64_t last_far = std::numeric_limits<std::int64_t>::max();        ///< tets, when that was chosen last
   std::int64_t first_near = 0;                                             ///< tets, when it was not for the first time
   bool most_waited = false;                                                ///< in the round before
+  int gave_way = 0;                                                        ///< rules, where nothing was admissible
   std::int64_t largest_target = std::numeric_limits<std::int64_t>::max();  ///< up to it the rounds so far are the same
   std::int64_t next_closing = 0;                                           ///< with fewer tets, gaps are closed
   double cost = 0;                                                         ///< of all collapses so far

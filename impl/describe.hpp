@@ -1,9 +1,20 @@
-// What a report says of the boundary.
+// What a report says of a mesh, of its boundary, and of how it became coarse.
 #pragma once
 #include "pipeline.hpp"
+#include "prepare.hpp"
 #include "surface_topology.hpp"
 
 namespace tetlod {
+
+inline void describe_input(const Input &input, const Original &original, Report &report) {
+  report.points_in = input.xyz[0].tuples;
+  report.tets_in = input.tets.tuples;
+  report.merged_points = original.merged_points;
+  report.nonfinite_points = original.nonfinite_points;
+  report.dropped_tets = original.dropped_tets;
+  report.scalar_min = original.scalar_min;
+  report.scalar_max = original.scalar_max;
+}
 
 inline void describe_boundary(const SurfaceTopology &original, Report &report) {
   report.boundary_points_in = original.used_points;
@@ -24,6 +35,14 @@ inline void describe_insertions(std::int64_t vertices, Report &report) {
   report.boundary_points_out += vertices;
   report.boundary_edges_out += 3 * vertices;
   report.boundary_triangles_out += 2 * vertices;
+}
+
+/// By collapses alone, whatever was tried before.
+inline void describe_collapses(std::int64_t points_left, Report &report) {
+  report.samples = report.selected_samples = points_left - report.boundary_points_out;
+  report.samples_outside = report.samples_too_near = report.steiner_points = report.reused_samples = 0;
+  report.cleaned_edges = report.reused_triangles = report.boundary_retries = report.remesh_attempts = 0;
+  report.worker_peak_bytes = 0;
 }
 
 }  // namespace tetlod
