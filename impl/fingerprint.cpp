@@ -46,7 +46,7 @@ void Fingerprint::add_bytes(const unsigned char *bytes, std::size_t count, Job &
 template <class Add>
 void Fingerprint::add_parts(std::size_t count, Job &job, const Add &add_item) {
   for (const Fingerprint &part : parts_of(count, Fingerprint(), job, add_item))
-    for (std::size_t half : {0, 1}) add(part.word(half));
+    for (std::size_t half = 0; half < 2; half++) add(part.word(half));
 }
 
 }  // namespace tetlod

@@ -159,7 +159,7 @@ class MoveFinder {
     const double of_value = a[entry_of(3, 3)];
     const double change2 = (a[0] + a[2] + a[5]) * size2 / std::max(of_value, 1e-300);
     if (!(of_value > 0)) return false;
-    for (std::size_t of_point : {0, 2, 5}) a[of_point] += damping * of_value * std::max(change2, 1e-300) / size2;
+    for (std::size_t k = 0; k < 3; k++) a[entry_of(k, k)] += damping * of_value * std::max(change2, 1e-300) / size2;
     for (std::size_t k = 3; k < 3 + m; k++) a[entry_of(k, k)] *= 1 + damping;
     const Cholesky<3 + m> solver(a, 0);
     if (!solver.regular()) return false;
