@@ -49,7 +49,7 @@ double bytes_of_fields(const Outlook &outlook, const Input &input) {
   for (const SubmittedField &field : input.fields) {
     const bool cells = field.association == Association::cell;
     (cells ? of_cells : of_points) = true;
-    values += sizeof(double) * std::size_t(field.values.components) * (cells ? outlook.tets : outlook.points);
+    values += double(sizeof(double)) * field.values.components * (cells ? outlook.tets : outlook.points);
   }
   const double points = of_points ? outlook.points : 0, cells = of_cells ? outlook.tets : 0;
   return bytes_of_result(outlook) +
