@@ -1,5 +1,5 @@
 // The faces of a tetrahedral mesh, the uses of each side by side: a counting sort by the lowest vertex, in a few chunks
-// of vertices so that memory stays small, then small sorts inside the buckets of the vertices.
+// of vertices so that memory stays small, then a match of pairs inside the buckets of the vertices.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -22,15 +22,18 @@ class FaceSweep {
   /// Tets with excluded[t] != 0 are left out (empty: none).
   FaceSweep(const MeshView &mesh, Span<const std::uint8_t> excluded, Job &job)
       : mesh_(mesh), excluded_(excluded), job_(job), begin_(mesh.points.size() + 1, 0, &job.memory) {
-    for_each_face(0,
-                  [&](std::int32_t low, std::int32_t, std::int32_t, std::uint32_t) { begin_[std::size_t(low) + 1]++; });
+    for_each_tet(0, [&](std::size_t, std::int32_t low, std::int32_t second) {
+      begin_[std::size_t(low) + 1] += 3;
+      begin_[std::size_t(second) + 1]++;
+    });
     for (std::size_t v = 0; v + 1 < begin_.size(); v++) begin_[v + 1] += begin_[v];
   }
 
   std::size_t chunks() const { return std::clamp<std::size_t>(begin_.back() / least_faces, 1, most_chunks); }
 
-  /// visit(chunk, lowest vertex, first, last) for the uses of every face, by vertex, then by the middle and the highest
-  /// vertex. Chunks are visited by different threads at once, each in order.
+  /// visit(chunk, lowest vertex, first, last) for the uses of every face, by their tets; by vertex, of which faces used
+  /// once, as all where one is used more than twice, come by the middle and the highest vertex. Chunks are visited by
+  /// different threads at once, each in order.
   template <class Visit>
   void visit(const Visit &visit) const {
     job_.parallel.for_blocks(chunks(), 1, [&](std::size_t chunk, std::size_t) { visit_chunk(chunk, visit); });
@@ -56,11 +59,13 @@ class FaceSweep {
     const std::uint32_t base = begin_[first];
     Array<FaceUse> faces(&job_.memory);
     grow(faces, begin_[last] - base, job_);
-    for_each_face(double(chunk) / double(chunks()),
-                  [&](std::int32_t low, std::int32_t middle, std::int32_t high, std::uint32_t use) {
-                    const std::size_t v = std::size_t(low) - first;  // wraps below the chunk
-                    if (v < place.size()) faces[place[v]++ - base] = {middle, high, use};
-                  });
+    const auto put = [&](std::int32_t low, std::int32_t middle, std::int32_t high, std::uint32_t use) {
+      const std::size_t v = std::size_t(low) - first;  // wraps below the chunk
+      if (v < place.size()) faces[place[v]++ - base] = {middle, high, use};
+    };
+    for_each_tet(double(chunk) / double(chunks()), [&](std::size_t t, std::int32_t low, std::int32_t second) {
+      if ((std::size_t(low) - first < place.size()) | (std::size_t(second) - first < place.size())) for_faces(t, put);
+    });
     for (std::size_t v = first; v < last; v++) {
       visit_bucket(chunk, std::int32_t(v), faces.data() + (begin_[v] - base), faces.data() + (begin_[v + 1] - base),
                    visit);
@@ -70,41 +75,94 @@ class FaceSweep {
 
   template <class Visit>
   static void visit_bucket(std::size_t chunk, std::int32_t low, FaceUse *first, FaceUse *last, const Visit &visit) {
+    const auto visit_uses = [&](const FaceUse *from, const FaceUse *to) { visit(chunk, low, from, to); };
+    if (!visit_pairs(first, last, visit_uses)) visit_sorted(first, last, visit_uses);
+  }
+
+  /// False, and nothing is visited: there are many uses, or more than two of one face.
+  template <class Visit>
+  static bool visit_pairs(FaceUse *first, FaceUse *last, const Visit &visit) {
+    constexpr std::size_t most = 96, slots = 256;
+    constexpr std::uint8_t none = 255;
+    const auto count = std::size_t(last - first);
+    if (count > most) return false;
+    std::uint8_t slot[slots], mate[most];  // by hash, the first use of a face; of a use, the other one
+    std::fill(std::begin(slot), std::end(slot), none);
+    for (std::size_t i = 0; i < count; i++) {
+      mate[i] = none;
+      const std::uint64_t face = first[i].others();
+      std::size_t at = (face * 0x9e3779b97f4a7c15u) >> 56;
+      while (slot[at] != none && first[slot[at]].others() != face) at = (at + 1) % slots;
+      const std::uint8_t other = slot[at];
+      if (other == none) {
+        slot[at] = std::uint8_t(i);
+        continue;
+      }
+      if (mate[other] != none) return false;
+      mate[other] = std::uint8_t(i);
+      mate[i] = other;
+    }
+    FaceUse single[most];
+    std::size_t singles = 0;
+    for (std::size_t i = 0; i < count; i++) {
+      if (mate[i] == none) {
+        single[singles++] = first[i];
+      } else if (mate[i] > i) {
+        const FaceUse pair[2] = {first[i], first[mate[i]]};
+        visit(pair, pair + 2);
+      }
+    }
+    visit_sorted(single, single + singles, visit);
+    return true;
+  }
+
+  template <class Visit>
+  static void visit_sorted(FaceUse *first, FaceUse *last, const Visit &visit) {
     std::sort(first, last, [](const FaceUse &a, const FaceUse &b) {  // one branch, for none can be foreseen
       return (a.others() < b.others()) | ((a.others() == b.others()) & (a.use < b.use));
     });
     while (first != last) {
       const FaceUse *same = first + 1;
       while (same != last && same->others() == first->others()) same++;
-      visit(chunk, low, static_cast<const FaceUse *>(first), same);
+      visit(static_cast<const FaceUse *>(first), same);
       first += same - first;
     }
   }
 
+  /// visit(t, the lowest vertex of tet t, the second lowest).
   template <class Visit>
-  void for_each_face(double fraction, const Visit &visit) const {
+  void for_each_tet(double fraction, const Visit &visit) const {
     for (std::size_t t = 0; t < mesh_.tets.size(); t++) {
       if (t % (1 << 18) == 0) job_.poll(fraction);
       if (!excluded_.empty() && excluded_[t]) continue;
-      std::uint64_t sorted[4];  // 4 v + k, once for all four faces
-      for (std::size_t k = 0; k < 4; k++) sorted[k] = 4 * std::uint64_t(mesh_.tets[t][k]) + k;
-      const auto order = [&](std::size_t a, std::size_t b) {
-        const auto [low, high] = std::pair(std::min(sorted[a], sorted[b]), std::max(sorted[a], sorted[b]));
-        sorted[a] = low;
-        sorted[b] = high;
-      };
-      const auto v = [&](std::size_t k) { return std::int32_t(sorted[k] / 4); };
-      const auto use = [&](std::size_t k) { return std::uint32_t(4 * t + sorted[k] % 4); };
-      order(0, 1);
-      order(2, 3);
-      order(0, 2);
-      order(1, 3);
-      order(1, 2);
-      visit(v(0), v(1), v(2), use(3));
-      visit(v(0), v(1), v(3), use(2));
-      visit(v(0), v(2), v(3), use(1));
-      visit(v(1), v(2), v(3), use(0));
+      const Tet &v = mesh_.tets[t];
+      const auto [low, high] = std::pair(std::min(v[0], v[1]), std::max(v[0], v[1]));
+      const auto [other_low, other_high] = std::pair(std::min(v[2], v[3]), std::max(v[2], v[3]));
+      visit(t, std::min(low, other_low), std::min(std::max(low, other_low), std::min(high, other_high)));
     }
+  }
+
+  /// visit(lowest, middle, highest vertex, use) of the faces of tet t.
+  template <class Visit>
+  void for_faces(std::size_t t, const Visit &visit) const {
+    std::uint64_t sorted[4];  // 4 v + k, once for all four faces
+    for (std::size_t k = 0; k < 4; k++) sorted[k] = 4 * std::uint64_t(mesh_.tets[t][k]) + k;
+    const auto order = [&](std::size_t a, std::size_t b) {
+      const auto [low, high] = std::pair(std::min(sorted[a], sorted[b]), std::max(sorted[a], sorted[b]));
+      sorted[a] = low;
+      sorted[b] = high;
+    };
+    const auto v = [&](std::size_t k) { return std::int32_t(sorted[k] / 4); };
+    const auto use = [&](std::size_t k) { return std::uint32_t(4 * t + sorted[k] % 4); };
+    order(0, 1);
+    order(2, 3);
+    order(0, 2);
+    order(1, 3);
+    order(1, 2);
+    visit(v(0), v(1), v(2), use(3));
+    visit(v(0), v(1), v(3), use(2));
+    visit(v(0), v(2), v(3), use(1));
+    visit(v(1), v(2), v(3), use(0));
   }
 
   const MeshView &mesh_;
