@@ -99,6 +99,8 @@ Turn::Turn(tetlod_context &context, HostState &host) noexcept : context_(context
   if (taken_) context.host = &host;
 }
 
+UnusedMemory::~UnusedMemory() { context_.memory.give_unused_back(); }
+
 Turn::~Turn() {
   if (!taken_) return;
   context_.host = nullptr;

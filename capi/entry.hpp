@@ -79,6 +79,18 @@ void note_exception(Message &message, const char *callback) noexcept;
 /// The turn is not there: says so, where the calling thread may write.
 tetlod_status refused(tetlod_context &context) noexcept;
 
+/// Gives memory that a call has used back to the system, when the call is over.
+class UnusedMemory {
+ public:
+  explicit UnusedMemory(tetlod_context &context) noexcept : context_(context) {}
+  ~UnusedMemory();
+  UnusedMemory(const UnusedMemory &) = delete;
+  UnusedMemory &operator=(const UnusedMemory &) = delete;
+
+ private:
+  tetlod_context &context_;
+};
+
 /// The entry of a function with a context; body(context) throws what goes wrong.
 template <class Body>
 tetlod_status entry(const tetlod_context *handle, Body &&body) noexcept {
@@ -87,6 +99,7 @@ tetlod_status entry(const tetlod_context *handle, Body &&body) noexcept {
   if (!context) return TETLOD_ERR_ARGUMENT;
   const Turn turn(*context, host);
   if (!turn) return refused(*context);
+  const UnusedMemory unused(*context);
   try {
     std::forward<Body>(body)(*context);
     return TETLOD_OK;

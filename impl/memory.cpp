@@ -8,19 +8,23 @@ namespace tetlod {
 
 namespace {
 
-void *allocate_default(void *, std::size_t bytes, std::size_t alignment) {
-  return ::operator new(bytes, std::align_val_t(alignment), std::nothrow);
-}
+/// Sanitizers know the ends of what comes from operator new alone.
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool sanitized = true;
+#elif defined(__has_feature)
+constexpr bool sanitized = __has_feature(address_sanitizer);
+#else
+constexpr bool sanitized = false;
+#endif
 
-void release_default(void *, void *pointer, std::size_t, std::size_t alignment) {
-  ::operator delete(pointer, std::align_val_t(alignment));
+bool takes_pages(std::size_t bytes, std::size_t alignment) {
+  constexpr std::size_t least_page = 4096;
+  return !sanitized && bytes >= PageHeap::worthwhile && alignment <= least_page;
 }
 
 }  // namespace
 
-Memory::Memory(AllocatorHooks hooks, std::size_t limit) : hooks_(hooks), limit_(limit) {
-  if (!hooks_.allocate) hooks_ = {allocate_default, release_default, nullptr};
-}
+Memory::Memory(AllocatorHooks hooks, std::size_t limit) : hooks_(hooks), limit_(limit) {}
 
 Memory::~Memory() = default;
 
@@ -40,7 +44,7 @@ void Memory::discharge(std::size_t bytes) noexcept { in_use_.fetch_sub(bytes, st
 
 void *Memory::do_allocate(std::size_t bytes, std::size_t alignment) {
   charge(bytes);
-  void *pointer = hooks_.allocate(hooks_.user, bytes, alignment);
+  void *const pointer = take(bytes, alignment);
   if (!pointer) {
     discharge(bytes);
     short_ = true;
@@ -50,8 +54,20 @@ void *Memory::do_allocate(std::size_t bytes, std::size_t alignment) {
 }
 
 void Memory::do_deallocate(void *pointer, std::size_t bytes, std::size_t alignment) {
-  hooks_.release(hooks_.user, pointer, bytes, alignment);
+  give(pointer, bytes, alignment);
   discharge(bytes);
+}
+
+void *Memory::take(std::size_t bytes, std::size_t alignment) {
+  if (hooks_.allocate) return hooks_.allocate(hooks_.user, bytes, alignment);
+  if (takes_pages(bytes, alignment)) return pages_.take(bytes);
+  return ::operator new(bytes, std::align_val_t(alignment), std::nothrow);
+}
+
+void Memory::give(void *pointer, std::size_t bytes, std::size_t alignment) {
+  if (hooks_.allocate) return hooks_.release(hooks_.user, pointer, bytes, alignment);
+  if (takes_pages(bytes, alignment)) return pages_.give(pointer, bytes);
+  ::operator delete(pointer, std::align_val_t(alignment));
 }
 
 bool Memory::do_is_equal(const std::pmr::memory_resource &other) const noexcept { return this == &other; }

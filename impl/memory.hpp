@@ -5,6 +5,8 @@
 #include <memory_resource>
 #include <vector>
 
+#include "page_heap.hpp"
+
 namespace tetlod {
 
 /// The caller's allocator (tetlod_config). Both functions may be called from several threads at once.
@@ -28,6 +30,8 @@ class Memory final : public std::pmr::memory_resource {
   void reset_peak() noexcept { peak_.store(in_use(), std::memory_order_relaxed); }
   /// Whether anything was refused since it was asked last.
   bool take_shortage() noexcept { return short_.exchange(false); }
+  /// What was taken for arrays that are gone goes back to the system.
+  void give_unused_back() noexcept { pages_.give_unused_back(); }
 
   /// Counts bytes that something else allocates for us (OpenMesh), so that limit and peak see them too.
   void charge(std::size_t bytes);
@@ -38,7 +42,11 @@ class Memory final : public std::pmr::memory_resource {
   void do_deallocate(void *pointer, std::size_t bytes, std::size_t alignment) override;
   bool do_is_equal(const std::pmr::memory_resource &other) const noexcept override;
 
-  AllocatorHooks hooks_;
+  void *take(std::size_t bytes, std::size_t alignment);
+  void give(void *pointer, std::size_t bytes, std::size_t alignment);
+
+  AllocatorHooks hooks_;  ///< without one: ours
+  PageHeap pages_;
   std::size_t limit_;
   std::atomic<std::size_t> in_use_{0};
   std::atomic<std::size_t> peak_{0};

@@ -1,0 +1,111 @@
+#include "page_heap.hpp"
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <new>
+
+namespace tetlod {
+
+namespace {
+
+constexpr std::size_t huge_page = std::size_t(1) << 21;
+
+std::size_t round_up(std::size_t bytes, std::size_t to) { return (bytes + to - 1) / to * to; }
+
+std::size_t whole_pages(std::size_t bytes) {
+  static const auto page = std::size_t(::sysconf(_SC_PAGESIZE));
+  return round_up(bytes, page);
+}
+
+char *map(std::size_t bytes) {
+  void *const begin = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  return begin == MAP_FAILED ? nullptr : static_cast<char *>(begin);
+}
+
+void unmap(char *begin, std::size_t bytes) {
+  if (bytes > 0) ::munmap(begin, bytes);
+}
+
+/// Whole huge pages, which the system is asked for.
+char *map_huge(std::size_t bytes) {
+  char *const begin = map(bytes + huge_page);
+  if (!begin) return nullptr;
+  const std::size_t before =
+      round_up(reinterpret_cast<std::uintptr_t>(begin), huge_page) - reinterpret_cast<std::uintptr_t>(begin);
+  unmap(begin, before);
+  unmap(begin + before + bytes, huge_page - before);
+  ::madvise(begin + before, bytes, MADV_HUGEPAGE);  // where there are none, small ones do
+  return begin + before;
+}
+
+}  // namespace
+
+PageHeap::~PageHeap() { give_unused_back(); }
+
+void *PageHeap::take(std::size_t bytes) noexcept {
+  bytes = whole_pages(bytes);
+  const std::lock_guard lock(mutex_);
+  char *block = take_piece(bytes);
+  if (!block && grow(bytes)) block = take_piece(bytes);
+  return block;
+}
+
+void PageHeap::give(void *block, std::size_t bytes) noexcept {
+  const std::lock_guard lock(mutex_);
+  add_piece(static_cast<char *>(block), whole_pages(bytes));
+}
+
+void PageHeap::give_unused_back() noexcept {
+  const std::lock_guard lock(mutex_);
+  while (Piece *const piece = first_) {
+    first_ = piece->next;
+    mapped_ -= piece->bytes;
+    unmap(piece->begin(), piece->bytes);
+  }
+}
+
+/// From the first one that is large enough: low addresses have been used before.
+char *PageHeap::take_piece(std::size_t bytes) noexcept {
+  Piece **link = &first_;
+  while (*link && (*link)->bytes < bytes) link = &(*link)->next;
+  Piece *const piece = *link;
+  if (!piece) return nullptr;
+  *link = piece->bytes == bytes ? piece->next : new (piece->begin() + bytes) Piece{piece->bytes - bytes, piece->next};
+  return piece->begin();
+}
+
+/// Becomes one with those before and behind it.
+void PageHeap::add_piece(char *begin, std::size_t bytes) noexcept {
+  Piece *before = nullptr, *behind = first_;
+  while (behind && behind->begin() < begin) {
+    before = behind;
+    behind = behind->next;
+  }
+  if (behind && begin + bytes == behind->begin()) {
+    bytes += behind->bytes;
+    behind = behind->next;
+  }
+  if (before && before->end() == begin) {
+    before->bytes += bytes;
+    before->next = behind;
+  } else {
+    (before ? before->next : first_) = new (begin) Piece{bytes, behind};
+  }
+}
+
+/// By a quarter of what there is, or as much as is needed.
+bool PageHeap::grow(std::size_t bytes) noexcept {
+  constexpr std::size_t most = std::size_t(1) << 26;
+  std::size_t size = round_up(std::max(bytes, std::min(mapped_ / 4, most)), huge_page);
+  char *begin = map_huge(size);
+  if (!begin) begin = map(size = bytes);
+  if (!begin) return false;
+  mapped_ += size;
+  add_piece(begin, size);
+  return true;
+}
+
+}  // namespace tetlod

@@ -1,0 +1,42 @@
+// Memory for large arrays, in the pages that the system has: huge ones, where it has them, and used again by the next
+// array, since to be given a page takes longer than to fill it.
+#pragma once
+#include <cstddef>
+#include <mutex>
+
+namespace tetlod {
+
+/// Blocks of whole pages. Thread-safe.
+class PageHeap {
+ public:
+  PageHeap() = default;
+  ~PageHeap();  ///< all blocks have been given back
+  PageHeap(const PageHeap &) = delete;
+  PageHeap &operator=(const PageHeap &) = delete;
+
+  /// Blocks of at least so many bytes are worth it; they lie at the begin of a page.
+  static constexpr std::size_t worthwhile = std::size_t(1) << 16;
+
+  void *take(std::size_t bytes) noexcept;  ///< null: the system has none
+  void give(void *block, std::size_t bytes) noexcept;
+  void give_unused_back() noexcept;  ///< to the system
+
+ private:
+  /// A piece that no block has; it begins with this.
+  struct Piece {
+    std::size_t bytes;
+    Piece *next;  ///< with a higher address, and not right behind this one
+    char *begin() { return reinterpret_cast<char *>(this); }
+    char *end() { return begin() + bytes; }
+  };
+
+  char *take_piece(std::size_t bytes) noexcept;
+  void add_piece(char *begin, std::size_t bytes) noexcept;
+  bool grow(std::size_t bytes) noexcept;
+
+  std::mutex mutex_;
+  Piece *first_ = nullptr;
+  std::size_t mapped_ = 0;
+};
+
+}  // namespace tetlod

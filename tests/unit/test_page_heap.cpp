@@ -1,0 +1,152 @@
+// Large arrays' pages: blocks keep what is written to them, lie apart, are used again, and go back to the system.
+#include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <fstream>
+#include <random>
+#include <thread>
+#include <vector>
+
+#include "memory.hpp"
+#include "page_heap.hpp"
+
+namespace tetlod {
+namespace {
+
+struct Block {
+  unsigned char *data;
+  std::size_t bytes;
+  unsigned char mark;
+
+  bool keeps_mark() const { return data[0] == mark && std::memcmp(data, data + 1, bytes - 1) == 0; }
+};
+
+Block take(PageHeap &heap, std::size_t bytes, unsigned char mark) {
+  auto *const data = static_cast<unsigned char *>(heap.take(bytes));
+  if (data) std::memset(data, mark, bytes);
+  return {data, bytes, mark};
+}
+
+/// Whether the system knows the page.
+bool is_mapped(void *page) {
+  unsigned char state;
+  return ::mincore(page, 1, &state) == 0;
+}
+
+/// A thousand blocks come and go in any order.
+void come_and_go(PageHeap &heap, unsigned seed) {
+  std::mt19937 random(seed);
+  std::vector<Block> blocks;
+  for (int i = 0; i < 1000; i++) {
+    if (blocks.size() < 12 && random() % 2) {
+      const std::size_t bytes = PageHeap::worthwhile + random() % (random() % 10 ? 200000 : 5000000);
+      blocks.push_back(take(heap, bytes, (unsigned char)(random())));
+      ASSERT_NE(blocks.back().data, nullptr);
+    } else if (!blocks.empty()) {
+      std::swap(blocks[random() % blocks.size()], blocks.back());
+      ASSERT_TRUE(blocks.back().keeps_mark());
+      heap.give(blocks.back().data, blocks.back().bytes);
+      blocks.pop_back();
+    }
+    if (i % 300 == 299) heap.give_unused_back();
+  }
+  for (const Block &block : blocks) {
+    ASSERT_TRUE(block.keeps_mark());
+    heap.give(block.data, block.bytes);
+  }
+}
+
+TEST(PageHeap, BlocksKeepWhatIsWritten) {
+  PageHeap heap;
+  come_and_go(heap, 1);
+}
+
+TEST(PageHeap, SoTheyDoForSeveralThreads) {
+  PageHeap heap;
+  std::vector<std::thread> threads;
+  for (unsigned seed = 0; seed < 4; seed++) threads.emplace_back([&heap, seed] { come_and_go(heap, seed); });
+  for (std::thread &thread : threads) thread.join();
+}
+
+TEST(PageHeap, IsUsedAgain) {
+  PageHeap heap;
+  const Block a = take(heap, 300000, 1), b = take(heap, 500000, 2), c = take(heap, 100000, 3);
+  heap.give(a.data, a.bytes);
+  heap.give(b.data, b.bytes);  // with the one before it
+  const Block large = take(heap, 790000, 4);
+  EXPECT_EQ(large.data, a.data);
+  EXPECT_TRUE(c.keeps_mark());
+  heap.give(large.data, large.bytes);
+  heap.give(c.data, c.bytes);
+  const Block all = take(heap, 900000, 5);
+  EXPECT_EQ(all.data, a.data);
+  heap.give(all.data, all.bytes);
+}
+
+TEST(PageHeap, GoesBackToTheSystem) {
+  PageHeap heap;
+  const Block a = take(heap, 3 << 20, 1), b = take(heap, 3 << 20, 2);
+  heap.give(a.data, a.bytes);
+  EXPECT_TRUE(is_mapped(a.data));
+  heap.give_unused_back();
+  EXPECT_FALSE(is_mapped(a.data));
+  EXPECT_TRUE(b.keeps_mark());
+  heap.give(b.data, b.bytes);
+  heap.give_unused_back();
+  EXPECT_FALSE(is_mapped(b.data));
+  const Block c = take(heap, 1 << 20, 3);
+  EXPECT_TRUE(c.keeps_mark());
+  heap.give(c.data, c.bytes);
+}
+
+TEST(PageHeap, WithoutMemoryThereIsNoBlock) {
+  PageHeap heap;
+  EXPECT_EQ(heap.take(std::size_t(1) << 60), nullptr);
+  const Block a = take(heap, 1 << 20, 1);
+  ASSERT_NE(a.data, nullptr);
+  heap.give(a.data, a.bytes);
+}
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+/// Of this process, in bytes.
+std::size_t address_space() {
+  std::size_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * std::size_t(::sysconf(_SC_PAGESIZE));
+}
+
+/// Where there is not as much as it likes to take at once.
+TEST(PageHeap, IsContentWithWhatItNeeds) {
+  const auto run = [] {
+    constexpr std::size_t mb = std::size_t(1) << 20;
+    PageHeap heap;
+    if (!heap.take(512 * mb)) return 1;
+    const rlimit limit{address_space() + 45 * mb, RLIM_INFINITY};
+    if (::setrlimit(RLIMIT_AS, &limit) != 0) return 2;
+    int blocks = 0;
+    while (heap.take(10 * mb)) blocks++;
+    return blocks >= 4 ? 0 : 3;
+  };
+  EXPECT_EXIT(::_exit(run()), testing::ExitedWithCode(0), "");
+}
+
+TEST(PageHeap, ServesTheLibrarysArrays) {
+  Memory memory;
+  void *begin = nullptr;
+  {
+    Array<double> large(1 << 20, 1.5, &memory);
+    begin = large.data();
+    EXPECT_EQ(memory.in_use(), sizeof(double) << 20);
+  }
+  EXPECT_EQ(memory.in_use(), 0u);
+  EXPECT_TRUE(is_mapped(begin));
+  memory.give_unused_back();
+  EXPECT_FALSE(is_mapped(begin));
+}
+#endif
+
+}  // namespace
+}  // namespace tetlod
