@@ -41,6 +41,12 @@ inline int rounds_of(const Options &options, const Report &report) {
   return int(std::min(small_mesh / double(report.tets_in), most));
 }
 
+/// Where it matters most how soon it is there: the last collapses are not the best ones, but removals.
+inline bool is_hasty(const Options &options, const Report &report) {
+  constexpr std::int64_t many = 100000;
+  return options.effort == effort_fast && options.max_error <= 0 && report.tets_in >= many;
+}
+
 /// What a target size is spent on.
 struct Budget {
   std::int64_t tets = 0;

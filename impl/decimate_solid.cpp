@@ -19,7 +19,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Part of the vertices whose cheapest edges a round looks at. A smaller one comes nearer to the cheapest edge of all
 /// first, and loses no less; of removals a larger one does.
-constexpr double part_of_round = 0.33, part_of_removals = 0.5;
+constexpr double part_of_round = 0.33, part_of_removals = 0.5, part_in_haste = 0.7;
 /// Tets that a collapse takes away, about.
 constexpr double tets_a_collapse = 5.5;
 
@@ -51,6 +51,7 @@ class SolidDecimator {
       works_.emplace_back(job.memory);
     }
     if (!options.holds_bound) places_.give_way(progress_.gave_way);
+    if (options.hasty) progress_.far = 1;
     if (options.max_deviation > 0) deviation_.emplace(surface, options.max_deviation, job);
   }
 
@@ -60,8 +61,7 @@ class SolidDecimator {
       if (count_ < options_.enough && limit > options_.dearest) break;
       job_.poll(1 - double(count_ - options_.tets) / surplus);
       collapse_some(limit);
-      drop_gone(left_);
-      drop_gone(progress_.changed);
+      keep_where(left_, job_, [&](std::size_t i) { return mesh_.has_vertex(left_[i]); });
       progress_.round++;
       if (!deviation_ && count_ < progress_.next_closing && count_ > options_.tets)
         close_gaps();
@@ -98,16 +98,17 @@ class SolidDecimator {
   /// Tets that it comes to, unless nothing is admissible; the way depends on them.
   std::int64_t size() const { return std::max(options_.tets, options_.enough); }
 
-  /// Rounds of a vertex none of whose edges is admissible, and of one that is looked at again after the round.
-  static constexpr int stuck = -2, waiting = -3;
+  /// The round of a vertex none of whose edges is admissible.
+  static constexpr int stuck = -2;
 
   /// What a block does in a round.
   struct Work {
-    explicit Work(Memory &memory) : items(&memory), changed(&memory), collapse(memory), neighbours(memory) {}
-    Array<std::int32_t> items, changed;
+    explicit Work(Memory &memory) : items(&memory), collapse(memory), neighbours(memory) {}
+    Array<std::int32_t> items;
     SolidCollapse<m> collapse;
     Neighbours neighbours;
-    std::int64_t most = 0, gone = 0;  ///< tets
+    std::int64_t most = 0, gone = 0;         ///< tets
+    std::size_t within_limit = 0, made = 0;  ///< vertices, as far as is known, and collapses
     double cost = 0;
   };
 
@@ -132,26 +133,42 @@ class SolidDecimator {
   bool give_way() {
     if (options_.holds_bound || progress_.gave_way == places_.most_ways) return false;
     places_.give_way(++progress_.gave_way);
-    progress_.changed = left_;
+    look_again();
     return true;
   }
 
   /// What an edge of the round may cost. Towards the end rounds get smaller, so that the last collapses are the
-  /// cheapest.
+  /// cheapest. Before that a sample says enough, and what others cost is looked for when their turn comes.
   double limit_by_costs() {
+    constexpr std::size_t enough = 4096;  // in a sample
     choose_way();
-    costs_.find_changed(job_);
-    const double most = (progress_.removes() ? part_of_removals : part_of_round) * double(left_.size()),
+    const double most = part_of_vertices() * double(left_.size()),
                  needed = 1 + double(count_ - options_.tets) / tets_a_collapse;
     progress_.allow(double(count_) - most * tets_a_collapse);
-    return costs_.of_cheapest(std::size_t(std::min(most, needed)), left_, job_.memory);
+    const auto wanted = std::size_t(std::min(most, needed)), step = wanted / enough + 1;
+    Array<std::int32_t> sample(&job_.memory);
+    for (std::size_t i = 0; i < left_.size(); i += step) sample.push_back(left_[i]);
+    costs_.find_missing(most < needed ? sample : left_, job_);
+    const double about = costs_.of_cheapest(wanted / step, sample, job_.memory);
+    if (about < infinity) return about;
+    costs_.find_missing(left_, job_);
+    return costs_.of_cheapest(wanted, left_, job_.memory);
+  }
+
+  double part_of_vertices() const {
+    if (!progress_.removes()) return part_of_round;
+    return options_.hasty ? part_in_haste : part_of_removals;
   }
 
   /// What edges are known to cost is of one way alone.
   void choose_way() {
     const bool removed = progress_.removes();
     progress_.choose_way(count_, size());
-    if (progress_.removes() != removed) progress_.changed = left_;
+    if (progress_.removes() != removed) look_again();
+  }
+
+  void look_again() {
+    for_each(left_.size(), job_, [&](std::size_t i) { cheapest(left_[i]) = CheapestEdge(); });
   }
 
   void collapse_some(double limit) {
@@ -183,7 +200,7 @@ class SolidDecimator {
 
   /// Few are soon done; what bounds the deviation is one for all; and where most wait, one block gets on.
   std::size_t most_blocks(std::size_t items) const {
-    constexpr std::size_t few = 256;
+    constexpr std::size_t few = 2048;
     return items < few || deviation_ || progress_.most_waited ? 1 : SolidBlocks::most;
   }
 
@@ -196,25 +213,21 @@ class SolidDecimator {
   }
 
   void take_over(std::size_t items) {
-    Array<std::int32_t> &changed = progress_.changed;
-    changed.clear();
     const std::int64_t before = count_;
+    std::size_t within_limit = 0, made = 0;
     for (Work &work : works_) {
       if (!work.items.empty())  // with fewer tets to lose, the block would have stopped before
         progress_.allow(double(before) - double(work.gone + 1) * double(items) / double(work.items.size()));
       count_ -= work.gone;
       progress_.cost += work.cost;
-      changed.insert(changed.end(), work.changed.begin(), work.changed.end());
+      within_limit += work.within_limit;
+      made += work.made;
       work.items.clear();
-      work.changed.clear();
       work.gone = 0;
+      work.within_limit = work.made = 0;
       work.cost = 0;
     }
-    progress_.most_waited = blocks_.count() > 1 && changed.size() * 8 < items;
-  }
-
-  void drop_gone(Array<std::int32_t> &vertices) const {
-    keep_where(vertices, job_, [&](std::size_t i) { return mesh_.has_vertex(vertices[i]); });
+    progress_.most_waited = blocks_.count() > 1 && made * 8 < within_limit;
   }
 
   // ---- States
@@ -262,9 +275,15 @@ class SolidDecimator {
 
   /// The cheapest admissible one of an edge of v within the limit. A vertex moves once a round.
   bool find(std::int32_t v, double limit, Work &work) {
-    if (!mesh_.has_vertex(v) || progress_.moved[std::size_t(v)] == progress_.round || waits(v)) return false;
+    if (!mesh_.has_vertex(v) || progress_.moved[std::size_t(v)] == progress_.round) return false;
+    work.within_limit++;
+    if (waits(v)) return false;
     if (!costs_.is_known(cheapest(v))) costs_.find_cheapest(v, work.neighbours);
-    if (!(cheapest(v).cost <= limit) || waits(cheapest(v).other)) return false;
+    if (!(cheapest(v).cost <= limit)) {
+      work.within_limit--;
+      return false;
+    }
+    if (waits(cheapest(v).other)) return false;
     return is_admissible(v, cheapest(v), work.collapse) || find_dearer(v, limit, work);
   }
 
@@ -274,15 +293,11 @@ class SolidDecimator {
   bool find_dearer(std::int32_t v, double limit, Work &work) {
     Few<CheapestEdge, largest_cavity> dearer;
     const double tried = cheapest(v).cost;
-    CheapestEdge later;
-    later.round = stuck;
-    mesh_.find_neighbours(v, work.neighbours);
-    for (std::int32_t u : work.neighbours) {
-      if (!costs_.owns(v, u)) continue;
-      const BestOfEdge best = costs_.of_edge(v, u);
+    CheapestEdge later{infinity, 0, -1, stuck};
+    costs_.for_edges(v, work.neighbours, [&](std::int32_t u, const BestOfEdge &best) {
       if (best.cost > tried && best.cost <= limit) dearer.push({best.cost, best.t, u, progress_.round});
       if (best.cost > limit && best.cost < later.cost) later = {best.cost, best.t, u, progress_.round};
-    }
+    });
     const auto is_cheaper = [](const CheapestEdge &a, const CheapestEdge &b) {
       return a.cost != b.cost ? a.cost < b.cost : a.other < b.other;
     };
@@ -315,15 +330,12 @@ class SolidDecimator {
     work.gone += std::int64_t(collapse.edge.edge_tets.size());
     work.cost += cheapest(collapse.found_at).cost;
     progress_.moved[std::size_t(v)] = progress_.round;
-    work.changed.push_back(v);
-    cheapest(v).round = waiting;  // once is enough
+    work.made++;
+    cheapest(v) = CheapestEdge();
     // What was not admissible around it may be so now.
     for (std::int32_t t : mesh_.tets_of.of(v))
       for (std::int32_t u : mesh_.tets[std::size_t(t)])
-        if (cheapest(u).round == stuck) {
-          cheapest(u).round = waiting;
-          work.changed.push_back(u);
-        }
+        if (cheapest(u).round == stuck) cheapest(u) = CheapestEdge();
   }
 
   const MeshView &original_;

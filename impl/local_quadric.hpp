@@ -7,6 +7,10 @@
 
 namespace tetlod {
 
+/// Two numbers, for which the processor does each step at once.
+typedef double Pair __attribute__((vector_size(16)));
+constexpr Pair both(double x) { return Pair{x, x}; }
+
 /// a + t d.
 template <std::size_t n>
 Vector<n> along(Vector<n> a, double t, const Vector<n> &d) {
@@ -36,15 +40,15 @@ struct LocalQuadric {
       for (std::size_t j = 0; j < n; j++) image[i] += (i < j ? a[entry_of(j, i)] : a[entry_of(i, j)]) * d[j];
     return image;
   }
-  /// What it is at the distance d.
-  double rise(const Vector<n> &d) const {
-    double sum = 0;
+  /// What it is at two distances d.
+  Pair rise(const std::array<Pair, n> &d) const {
+    Pair sum = both(0);
     for (std::size_t i = 0; i < n; i++) {
-      double of_row = g[i] + 0.5 * a[entry_of(i, i)] * d[i];
-      for (std::size_t j = 0; j < i; j++) of_row += a[entry_of(i, j)] * d[j];
+      Pair of_row = both(g[i]) + both(0.5 * a[entry_of(i, i)]) * d[i];
+      for (std::size_t j = 0; j < i; j++) of_row += both(a[entry_of(i, j)]) * d[j];
       sum += of_row * d[i];
     }
-    return 2 * sum;
+    return sum + sum;
   }
   /// weight times (normal . d)^2.
   void add_square(const Vector<n> &normal, double weight) {

@@ -3,7 +3,6 @@
 #pragma once
 #include <algorithm>
 #include <cstdint>
-#include <iterator>
 
 #include "mesh.hpp"
 
@@ -12,7 +11,7 @@ namespace tetlod {
 /// Of one vertex after another, for one thread at a time.
 class Neighbours {
  public:
-  explicit Neighbours(Memory &memory) : room_(&memory) {}
+  explicit Neighbours(Memory &memory) : room_(&memory), seen_(std::size_t(1) << bits, 0, &memory) {}
 
   /// star: the tets of v, those that are gone, whose first corner is -1, among them. Each neighbour is there, in the
   /// order of the tets; some, by chance, are there again.
@@ -20,20 +19,21 @@ class Neighbours {
     const std::size_t most = 3 * star.size();
     if (room_.size() < most + 1 + star.size()) room_.resize(most + 1 + star.size());
     std::int32_t *const left = room_.data() + most + 1, *const end_of_left = find_left(star, tets, left);
-    std::int32_t seen[1 << bits];  // at its hash, what was found there last
-    std::fill(std::begin(seen), std::end(seen), -1);
+    time_ += std::uint64_t(1) << 32;
     std::size_t count = 0;
     for (const std::int32_t *t = left; t < end_of_left; t++)
       for (std::int32_t u : tets[std::size_t(*t)]) {  // without a branch: what was seen cannot be foreseen
-        std::int32_t &last = seen[(std::uint32_t(u) * spread) >> (32 - bits)];
+        const std::uint64_t now = time_ | std::uint32_t(u);
+        std::uint64_t &last = seen_[(std::uint32_t(u) * spread) >> (32 - bits)];
         room_[count] = u;
-        count += (u != last) & (u != v);
-        last = u;
+        count += (now != last) & (u != v);
+        last = now;
       }
     count_ = count;
   }
   const std::int32_t *begin() const { return room_.data(); }
   const std::int32_t *end() const { return room_.data() + count_; }
+  std::size_t size() const { return count_; }
 
  private:
   static constexpr int bits = 8;
@@ -47,7 +47,9 @@ class Neighbours {
     return left;
   }
 
-  Array<std::int32_t> room_;  // for the neighbours, and for the tets that are left
+  Array<std::int32_t> room_;   // for the neighbours, and for the tets that are left
+  Array<std::uint64_t> seen_;  // at its hash, what was found there last, and when
+  std::uint64_t time_ = 0;
   std::size_t count_ = 0;
 };
 

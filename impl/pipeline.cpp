@@ -139,10 +139,10 @@ class Pipeline {
     const StageTimer timer(Stage::decimate, job_, report_);
     const CollapseSizes sizes = collapse_sizes(budget_, options_);
     const bool holds_bound = options_.max_error > 0;
-    SolidHistory &history = prepared_.history(holds_bound, options_.warm_start > 0, job_);
-    SolidOptions options{sizes.tets,        budget_.enough,   budget_.dearest,
-                         deviation_limit(), holds_bound,      options_.warm_start,
-                         kept_.by_host(),   kept_.restored(), {}};
+    const bool hasty = is_hasty(options_, report_);
+    SolidHistory &history = prepared_.history(holds_bound, hasty, options_.warm_start > 0, job_);
+    SolidOptions options{sizes.tets,  budget_.enough,      budget_.dearest, deviation_limit(), hasty,
+                         holds_bound, options_.warm_start, kept_.by_host(), kept_.restored(),  {}};
     options.later = job_.memory.in_use() + bytes_to_refine(original_.view, sizes.tets, rounds_of(options_, report_));
     options.one_of_many = report_.reused_tets > 0 && history.is_repeated();
     const std::string wrong =

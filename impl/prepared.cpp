@@ -129,8 +129,8 @@ double Prepared::deviation(const Surface &decimated, Samples samples, Job &job) 
   return deviation_;
 }
 
-SolidHistory &Prepared::history(bool holds_bound, bool keeps_earlier, Job &job) {
-  history_.begin(original.view, holds_bound, keeps_earlier, job);
+SolidHistory &Prepared::history(bool holds_bound, bool hasty, bool keeps_earlier, Job &job) {
+  history_.begin(original.view, holds_bound, hasty, keeps_earlier, job);
   return history_;
 }
 

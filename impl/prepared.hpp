@@ -61,7 +61,7 @@ class Prepared {
 
   /// Of the original while its edges collapsed, for a bound or not, with the values that it has now, or, if asked for,
   /// with earlier ones.
-  SolidHistory &history(bool holds_bound, bool keeps_earlier, Job &job);
+  SolidHistory &history(bool holds_bound, bool hasty, bool keeps_earlier, Job &job);
 
   /// Of each original vertex, what culling with these found of it at the last decimated surface.
   Span<std::uint8_t> verdicts(double least_distance, std::int64_t leaf, Memory &memory);

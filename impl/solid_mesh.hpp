@@ -102,12 +102,24 @@ class SolidMesh : public SolidComplex {
 
   /// Of collapsing the edge; infinite where neither end may go.
   BestOfEdge cost(std::int32_t v, std::int32_t u) const;
-  /// Of moving v, which is inside, into its neighbour, which keeps place and values; infinite where that may not be.
-  double cost_of_removal(std::int32_t v, std::int32_t into) const {
-    if (!may_go(v) || rank(into) == Rank::touching) return std::numeric_limits<double>::infinity();
+  /// visit(u, cost) of moving v, which is inside, into each neighbour u, which keeps place and values; infinite where
+  /// that may not be. Two at a time, with the bytes of one at a time.
+  template <class Visit>
+  void for_removals(std::int32_t v, const Neighbours &neighbours, const Visit &visit) const {
+    if (!may_go(v)) return;
     const Quadric &q = quadric(v);
-    const Place d = minus(place(into), place(v));
-    return q.rise(d) + shape_share * length2(point_of(d)) * q.a[tets_of_vertex];
+    const Place from = place(v);
+    const std::int32_t *u = neighbours.begin();
+    for (std::size_t left = neighbours.size(); left > 0; left -= std::min<std::size_t>(left, 2), u += 2) {
+      const std::int32_t pair[2] = {u[0], u[left > 1]};
+      const Place a = place(pair[0]), b = place(pair[1]);
+      std::array<Pair, 3 + m> d;
+      for (std::size_t i = 0; i < d.size(); i++) d[i] = Pair{a[i], b[i]} - Pair{from[i], from[i]};
+      const Pair length2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2], of_length = both(shape_share * q.a[tets_of_vertex]);
+      const Pair cost = q.rise(d) + of_length * length2;
+      for (std::size_t k = 0; k < std::min<std::size_t>(left, 2); k++)
+        visit(pair[k], rank(pair[k]) == Rank::touching ? std::numeric_limits<double>::infinity() : cost[k]);
+    }
   }
 
   const Quadric &quadric(std::int32_t v) const { return quadrics_[std::size_t(v)]; }

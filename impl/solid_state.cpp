@@ -9,14 +9,12 @@ SolidProgress::SolidProgress(std::size_t vertices, std::size_t tets, Job &job)
     : next_closing(std::int64_t(tets) / 5 * 3),  // where removals end on the way to a fifth; then to a tenth, ...
       cheapest(array_of(vertices, CheapestEdge(), job)),
       moved(array_of(vertices, -1, job)),
-      changed(array_of(vertices, 0, job)),
       home(&job.memory),
-      into(&job.memory) {
-  std::iota(changed.begin(), changed.end(), 0);
-}
+      into(&job.memory) {}
 
 SolidProgress::SolidProgress(const SolidProgress &of, Memory &memory)
-    : round(of.round),
+    : far(of.far),
+      round(of.round),
       last_far(of.last_far),
       first_near(of.first_near),
       most_waited(of.most_waited),
@@ -26,14 +24,8 @@ SolidProgress::SolidProgress(const SolidProgress &of, Memory &memory)
       cost(of.cost),
       cheapest(of.cheapest, &memory),
       moved(of.moved, &memory),
-      changed(of.changed, &memory),
       home(of.home, &memory),
       into(of.into, &memory) {}
-
-bool SolidProgress::is_far(std::int64_t count, std::int64_t tets) {
-  constexpr std::int64_t far = 3;  // times the tets
-  return count / far >= tets;
-}
 
 void SolidProgress::choose_way(std::int64_t count, std::int64_t tets) {
   if (is_far(count, tets) && gave_way == 0)
@@ -54,7 +46,6 @@ void SolidProgress::close_gaps(Span<const std::int32_t> number, Job &job) {
   const auto is_left = [&](std::size_t v) { return number[v] >= 0; };
   job.parallel.at_once([&] { keep_where(cheapest, job, is_left); }, [&] { keep_where(moved, job, is_left); });
   for_each(cheapest.size(), job, [&](std::size_t v) { renumber(cheapest[v].other); });
-  for (std::int32_t &v : changed) renumber(v);
   if (!follows()) return;
   for (std::int32_t &v : home) {
     while (v >= 0 && into[std::size_t(v)] != v) v = into[std::size_t(v)];
@@ -64,15 +55,17 @@ void SolidProgress::close_gaps(Span<const std::int32_t> number, Job &job) {
   std::iota(into.begin(), into.end(), 0);
 }
 
-void SolidHistory::begin(const MeshView &original, bool holds_bound, bool keeps_earlier, Job &job) {
+void SolidHistory::begin(const MeshView &original, bool holds_bound, bool hasty, bool keeps_earlier, Job &job) {
   Fingerprint values;
   values.add(std::uint64_t(original.fields));
   for (std::size_t k = 0; k < original.fields; k++) values.add(original.scales.weighted[k]);
   values.add(original.scalars, job);
   now_ = values;
   repeated_ = !is_earlier();
-  if (holds_bound != holds_bound_ || (is_earlier() && !keeps_earlier)) forget_earlier(job.memory);
+  const bool same_way = holds_bound == holds_bound_ && hasty == hasty_;
+  if (!same_way || (is_earlier() && !keeps_earlier)) forget_earlier(job.memory);
   holds_bound_ = holds_bound;
+  hasty_ = hasty;
 }
 
 void SolidHistory::forget(Memory &memory) {

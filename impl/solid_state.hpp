@@ -11,11 +11,14 @@ namespace tetlod {
 /// How the squared error of linear interpolation falls with the number of tets: as its inverse to this power.
 constexpr double second_order = 4.0 / 3;
 
-/// No admissible edge of a vertex costs less, as far as was known in that round.
+/// No admissible edge of a vertex costs less, as far as was known in that round. At first, and where what its edges
+/// cost has changed since, it is to be looked for, and counts as cheaper than all.
 struct CheapestEdge {
-  double cost = std::numeric_limits<double>::infinity(), t = 0;
+  double cost = -std::numeric_limits<double>::infinity(), t = 0;
   std::int32_t other = -1;
   int round = -1;
+
+  bool is_found() const { return cost != CheapestEdge().cost; }
 };
 
 /// How far the rounds are, and what they know.
@@ -25,8 +28,7 @@ struct SolidProgress {
   SolidProgress(const SolidProgress &of, Memory &memory);
 
   std::size_t bytes() const {
-    return cheapest.size() * (sizeof(CheapestEdge) + sizeof(int)) +
-           (changed.size() + home.size() + into.size()) * sizeof(std::int32_t);
+    return cheapest.size() * (sizeof(CheapestEdge) + sizeof(int)) + (home.size() + into.size()) * sizeof(std::int32_t);
   }
   /// From here on `home` is known. origin: of each vertex, the original one.
   void follow(Span<const std::int32_t> origin, std::size_t originals);
@@ -39,11 +41,13 @@ struct SolidProgress {
   /// Far from so many tets vertices are removed, near them, or where no more may go, edges collapse. From here on it is
   /// so with `count` tets.
   void choose_way(std::int64_t count, std::int64_t tets);
+  static constexpr std::int64_t usually_far = 3;  ///< times the tets
   /// Vertices, which costs are of.
   bool removes() const { return first_near == 0; }
   /// Whether the ways so far were those to so many tets.
   bool leads_to(std::int64_t tets) const { return is_far(last_far, tets) && !is_far(first_near, tets); }
 
+  std::int64_t far = usually_far;  ///< times the tets; 1: near the size, too
   int round = 0;
   std::int64_t last_far = std::numeric_limits<std::int64_t>::max();        ///< tets, when that was chosen last
   std::int64_t first_near = 0;                                             ///< tets, when it was not for the first time
@@ -53,13 +57,12 @@ struct SolidProgress {
   std::int64_t next_closing = 0;                                           ///< with fewer tets, gaps are closed
   double cost = 0;                                                         ///< of all collapses so far
   Array<CheapestEdge> cheapest;                                            ///< of each vertex
-  Array<int> moved;             ///< the round in which each vertex moved last
-  Array<std::int32_t> changed;  ///< whose edges cost something else than they did
-  Array<std::int32_t> home;     ///< of each original vertex, the one it had become when gaps were closed last, or -1
-  Array<std::int32_t> into;     ///< of each vertex, the one that it has collapsed into since, or itself
+  Array<int> moved;          ///< the round in which each vertex moved last
+  Array<std::int32_t> home;  ///< of each original vertex, the one it had become when gaps were closed last, or -1
+  Array<std::int32_t> into;  ///< of each vertex, the one that it has collapsed into since, or itself
 
  private:
-  static bool is_far(std::int64_t count, std::int64_t tets);
+  bool is_far(std::int64_t count, std::int64_t tets) const { return count / far >= tets; }
 };
 
 template <std::size_t m>
@@ -74,8 +77,8 @@ class SolidHistory {
   explicit SolidHistory(Memory &memory) : states_(Array<SolidState<1>>(&memory)) {}
 
   /// Forgets the states, unless they are of the same values, or those of earlier ones are to be kept. For a bound there
-  /// are others.
-  void begin(const MeshView &original, bool holds_bound, bool keeps_earlier, Job &job);
+  /// are others, and for the hasty.
+  void begin(const MeshView &original, bool holds_bound, bool hasty, bool keeps_earlier, Job &job);
   bool is_earlier() const { return !(now_ == values_); }
   /// Whether it began with these values before.
   bool is_repeated() const { return repeated_; }
@@ -109,7 +112,7 @@ class SolidHistory {
   }
 
  private:
-  bool holds_bound_ = false, repeated_ = false;
+  bool holds_bound_ = false, hasty_ = false, repeated_ = false;
   Fingerprint values_, now_;
   double usual_cost_ = 0;
   std::int64_t tets_of_cost_ = 0;

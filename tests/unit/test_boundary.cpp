@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <random>
 #include <set>
 #include <string>
 
 #include "brute_force.hpp"
 #include "extract_boundary.hpp"
+#include "face_sweep.hpp"
 #include "meshes.hpp"
 #include "status.hpp"
 
@@ -121,6 +123,43 @@ TEST_F(ExtractBoundary, AgainstAMapOfAllFaces) {
     extract(mesh);
     EXPECT_EQ(oriented_triangles(triangles()), brute_boundary(mesh)) << seed;
     expect_good(mesh);
+  }
+}
+
+/// Of tets of any vertices, some faces used often, some vertices with many faces.
+TEST_F(ExtractBoundary, FacesAreSweptWithAllTheirUses) {
+  std::mt19937 random(5);
+  for (const std::int32_t vertices : {5, 8, 12, 40, 400}) {
+    Mesh mesh;
+    mesh.points.resize(std::size_t(vertices));
+    for (int i = 0; i < 300; i++) {
+      std::set<std::int32_t> corners;
+      if (vertices > 12 && i % 2) corners.insert(0);
+      while (corners.size() < 4) corners.insert(std::int32_t(random() % std::uint32_t(vertices)));
+      Tet tet;
+      std::copy(corners.begin(), corners.end(), tet.begin());
+      std::shuffle(tet.begin(), tet.end(), random);
+      mesh.tets.push_back(tet);
+    }
+    using Face = std::array<std::int32_t, 3>;
+    std::map<Face, std::vector<std::uint32_t>> expected, visited;
+    for (std::size_t t = 0; t < mesh.tets.size(); t++)
+      for (std::uint32_t k = 0; k < 4; k++) {
+        Face face;
+        for (std::size_t i = 0; i < 3; i++) face[i] = mesh.tets[t][std::size_t(tet_face[k][i])];
+        std::sort(face.begin(), face.end());
+        expected[face].push_back(std::uint32_t(4 * t) + k);
+      }
+    Face last{};
+    const MeshView view = mesh.view();
+    FaceSweep(view, {}, host.job).visit([&](std::size_t, std::int32_t low, const FaceUse *first, const FaceUse *end) {
+      const Face face{low, first->middle, first->high};
+      for (const FaceUse *f = first; f != end; f++) visited[face].push_back(f->use);
+      if (end - first != 1) return;
+      EXPECT_LE(last, face);
+      last = face;
+    });
+    EXPECT_EQ(visited, expected) << vertices;
   }
 }
 

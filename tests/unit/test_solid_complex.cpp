@@ -77,6 +77,41 @@ TEST_F(SolidAround, HardlyANeighbourComesTwice) {
   EXPECT_LT(double(found), 1.1 * double(different));
 }
 
+/// Against the sum over the tets that each vertex began with, of which the quadrics are made.
+TEST_F(SolidAround, RemovalsCostTheErrorsOfTheFunctionsAround) {
+  Mesh mesh = kuhn_cube(4);
+  std::mt19937 random(3);
+  for (Vec3 &p : mesh.points) p += 0.05 * Vec3(double(random()), double(random()), double(random())) * 0x1p-32;
+  set_scalars(mesh, waves);
+  start_with(mesh);
+  const FieldsAsLengths<1> fields(original.view(), 1, host.job);
+  const SolidMesh<1> solid(put_in_order(original.view(), boundary, host.job), original.view().values<1>(),
+                           fields.scales, host.job);
+  Neighbours neighbours(host.memory);
+  std::size_t removals = 0;
+  for (std::int32_t v = 0; v < std::int32_t(solid.points.size()); v++) {
+    if (solid.on_boundary(v)) continue;
+    solid.find_neighbours(v, neighbours);
+    std::multiset<std::int32_t> visited;
+    solid.for_removals(v, neighbours, [&](std::int32_t u, double cost) {
+      const auto d = minus(solid.place(u), solid.place(v));
+      double expected = 0;
+      for (std::int32_t t : solid.tets_of.of(v)) {
+        const Tet &tet = solid.tets[std::size_t(t)];
+        const auto normals =
+            upright_normals<1>({solid.place(tet[0]), solid.place(tet[1]), solid.place(tet[2]), solid.place(tet[3])});
+        const double off = dot<4>(normals[0], d);
+        expected += off * off + 1e-6 * length2(point_of(d));
+      }
+      EXPECT_NEAR(cost, expected, 1e-12 + 1e-9 * expected);
+      visited.insert(u);
+      removals++;
+    });
+    EXPECT_EQ(visited, std::multiset<std::int32_t>(neighbours.begin(), neighbours.end()));
+  }
+  EXPECT_GT(removals, 300u);
+}
+
 TEST_F(SolidAround, BlocksKnowTheirBorders) {
   SolidComplex solid = solid_of(kuhn_cube(26));
   take_away_some(solid, 2);

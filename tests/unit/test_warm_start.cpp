@@ -24,7 +24,7 @@ class WarmStart : public DecimateSolid {
   std::int64_t go_on_with(const Field &field, double ratio, Host &on, SolidHistory &history, CoarseSolid &coarse) {
     set_scalars(original, field);
     start_with(original);
-    history.begin(original.view(), false, true, on.job);
+    history.begin(original.view(), false, false, true, on.job);
     EXPECT_TRUE(decimate(ratio, on, history, coarse)) << failure;
     return coarse.reused;
   }
@@ -96,7 +96,7 @@ TEST_F(WarmStart, BeginsWhereASlowFrontLeftTheSolid) {
     Host on(threads);
     SolidHistory history(on.memory);
     CoarseSolid first(on.memory);
-    history.begin(original.view(), false, true, on.job);
+    history.begin(original.view(), false, false, true, on.job);
     ASSERT_TRUE(decimate(0.1, on, history, first));
     for (double at : {0.601, 0.603}) {
       CoarseSolid next(on.memory);
@@ -121,7 +121,7 @@ TEST_F(WarmStart, BeginsAnewWhereTheValuesAreMuchSmoother) {
   start_with(rough);
   SolidHistory history(host.memory);
   CoarseSolid first(host.memory), next(host.memory), alone(host.memory);
-  history.begin(original.view(), false, true, host.job);
+  history.begin(original.view(), false, false, true, host.job);
   ASSERT_TRUE(decimate(0.1, host, history, first)) << failure;
   EXPECT_EQ(go_on_with([](const Vec3 &p) { return front(p, 0.6); }, 0.1, host, history, next), 0);
   ASSERT_TRUE(decimate(0.1, host, alone));
@@ -135,7 +135,7 @@ TEST_F(WarmStart, TakesNoOtherMemory) {
   {
     SolidHistory history(host.memory);
     CoarseSolid first(host.memory), next(host.memory);
-    history.begin(original.view(), false, true, host.job);
+    history.begin(original.view(), false, false, true, host.job);
     EXPECT_NO_THROW(decimate(0.1, host, history, first));
     EXPECT_NO_THROW(go_on_with([](const Vec3 &p) { return front(p, 0.601); }, 0.1, host, history, next));
   }
@@ -146,7 +146,7 @@ TEST_F(WarmStart, BeginsAnewWhereTheValuesAreOthers) {
   start_with_front(12, 0.6);
   SolidHistory history(host.memory);
   CoarseSolid first(host.memory), next(host.memory), alone(host.memory);
-  history.begin(original.view(), false, true, host.job);
+  history.begin(original.view(), false, false, true, host.job);
   ASSERT_TRUE(decimate(0.1, host, history, first));
   EXPECT_EQ(go_on_with(waves, 0.1, host, history, next), 0);
   ASSERT_TRUE(decimate(0.1, host, alone));
