@@ -29,6 +29,9 @@ void unmap(char *begin, std::size_t bytes) {
   if (bytes > 0) ::munmap(begin, bytes);
 }
 
+std::size_t bytes_in_huge_page(const char *place) { return reinterpret_cast<std::uintptr_t>(place) % huge_page; }
+std::size_t bytes_to_huge_page(const char *place) { return (huge_page - bytes_in_huge_page(place)) % huge_page; }
+
 /// Whole huge pages, which the system is asked for.
 char *map_huge(std::size_t bytes) {
   char *const begin = map(bytes + huge_page);
@@ -65,6 +68,7 @@ void PageHeap::give_unused_back() noexcept {
     mapped_ -= piece->bytes;
     unmap(piece->begin(), piece->bytes);
   }
+  most_mapped_ = mapped_;
 }
 
 /// From the first one that is large enough: low addresses have been used before.
@@ -96,16 +100,38 @@ void PageHeap::add_piece(char *begin, std::size_t bytes) noexcept {
   }
 }
 
-/// By a quarter of what there is, or as much as is needed.
 bool PageHeap::grow(std::size_t bytes) noexcept {
-  constexpr std::size_t most = std::size_t(1) << 26;
-  std::size_t size = round_up(std::max(bytes, std::min(mapped_ / 4, most)), huge_page);
+  std::size_t size = round_up(bytes, huge_page);
+  make_room(size);
   char *begin = map_huge(size);
   if (!begin) begin = map(size = bytes);
   if (!begin) return false;
   mapped_ += size;
+  most_mapped_ = std::max(most_mapped_, mapped_);
   add_piece(begin, size);
   return true;
+}
+
+/// The whole huge pages of pieces, which are all too small, go back, as far as there would be more than ever before.
+void PageHeap::make_room(std::size_t bytes) noexcept {
+  const auto keep = [](Piece **&link, char *begin, char *end) {
+    if (begin == end) return;
+    *link = new (begin) Piece{std::size_t(end - begin), *link};
+    link = &(*link)->next;
+  };
+  for (Piece **link = &first_; *link && mapped_ + bytes > most_mapped_;) {
+    char *const begin = (*link)->begin(), *const end = (*link)->end();
+    char *const first = begin + bytes_to_huge_page(begin), *const last = end - bytes_in_huge_page(end);
+    if (first >= last) {
+      link = &(*link)->next;
+      continue;
+    }
+    *link = (*link)->next;
+    unmap(first, std::size_t(last - first));
+    mapped_ -= std::size_t(last - first);
+    keep(link, begin, first);
+    keep(link, last, end);
+  }
 }
 
 }  // namespace tetlod
