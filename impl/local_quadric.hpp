@@ -51,14 +51,20 @@ struct LocalQuadric {
     return sum + sum;
   }
   /// weight times (normal . d)^2.
-  void add_square(const Vector<n> &normal, double weight) {
+  void add_square(const Vector<n> &normal, double weight) { add(square_of(normal, weight)); }
+  static Triangular<n> square_of(const Vector<n> &normal, double weight) {
+    Triangular<n> square;
     for (std::size_t i = 0; i < n; i++)
-      for (std::size_t j = 0; j <= i; j++) a[entry_of(i, j)] += weight * normal[i] * normal[j];
+      for (std::size_t j = 0; j <= i; j++) square[entry_of(i, j)] = weight * normal[i] * normal[j];
+    return square;
+  }
+  void add(const Triangular<n> &square) {
+    for (std::size_t i = 0; i < a.size(); i++) a[i] += square[i];
   }
   /// The same function, kept at the distance d.
   LocalQuadric moved(const Vector<n> &d) const { return {a, along(g, 1, times(d))}; }
   void add(const LocalQuadric &o) {
-    for (std::size_t i = 0; i < a.size(); i++) a[i] += o.a[i];
+    add(o.a);
     g = along(g, 1, o.g);
   }
 };

@@ -84,9 +84,11 @@ void SolidMesh<m>::add_tets(std::size_t begin, std::size_t end, Job &job) {
     const Tet &tet = tets[t];
     if (!(is_among(tet[0]) | is_among(tet[1]) | is_among(tet[2]) | is_among(tet[3]))) continue;
     const auto normals = upright_normals<m>({place(tet[0]), place(tet[1]), place(tet[2]), place(tet[3])});
-    for (const Place &normal : normals)
+    for (const Place &normal : normals) {
+      const auto square = Quadric::square_of(normal, 1);
       for (std::int32_t v : tet)
-        if (is_among(v)) quadrics_[std::size_t(v)].add_square(normal, 1);
+        if (is_among(v)) quadrics_[std::size_t(v)].add(square);
+    }
   }
 }
 
