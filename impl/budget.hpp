@@ -23,7 +23,7 @@ constexpr double small_mesh = 1e5;
 /// thin one whose boundary takes longer, and little of it is kept, or so few tets that TetGen makes them soon. A bound
 /// alone asks for accuracy.
 inline bool samples_sooner(const Options &options, const Report &report) {
-  constexpr double soon_made = 13000, little = 0.04, most = 0.065, thin = 0.125;
+  constexpr double soon_made = 9000, little = 0.03, most = 0.045, thin = 0.125;
   const double tets = double(report.tets_in), ratio = options.target_ratio;
   return tets >= small_mesh && double(report.boundary_triangles_in) <= thin * tets && ratio > 0 &&
          ratio <= std::clamp(soon_made / tets, little, most);

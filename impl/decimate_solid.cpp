@@ -57,7 +57,8 @@ class SolidDecimator {
 
   void run() {
     const double surplus = double(count_ - options_.tets);
-    for (double limit; count_ > options_.tets && (limit = limit_of_round()) < infinity;) {
+    const std::int64_t near_enough = options_.tets + options_.tets / 1000;  // the largest errors get a little less then
+    for (double limit; count_ > near_enough && (limit = limit_of_round()) < infinity;) {
       if (count_ < options_.enough && limit > options_.dearest) break;
       job_.poll(1 - double(count_ - options_.tets) / surplus);
       collapse_some(limit);
@@ -200,7 +201,7 @@ class SolidDecimator {
 
   /// Few are soon done; what bounds the deviation is one for all; and where most wait, one block gets on.
   std::size_t most_blocks(std::size_t items) const {
-    constexpr std::size_t few = 2048;
+    constexpr std::size_t few = 512;
     return items < few || deviation_ || progress_.most_waited ? 1 : SolidBlocks::most;
   }
 

@@ -100,11 +100,10 @@ std::int64_t exclude(Span<const std::int32_t> tets, std::size_t count, Array<std
 void find_interior(const MeshView &mesh, Span<const std::uint8_t> excluded, Job &job, Boundary &boundary) {
   enum : std::uint8_t { unused, used, on_boundary };
   Array<std::uint8_t> place(mesh.points.size(), unused, &job.memory);
-  for (std::size_t t = 0; t < mesh.tets.size(); t++) {
-    if (t % 65536 == 0) job.poll(1);
+  for_each(mesh.tets.size(), job, [&](std::size_t t) {
     if (excluded.empty() || !excluded[t])
-      for (std::int32_t v : mesh.tets[t]) place[std::size_t(v)] = used;
-  }
+      for (std::int32_t v : mesh.tets[t]) set_flag(place[std::size_t(v)]);
+  });
   for (const Triangle &t : boundary.triangles)
     for (std::int32_t v : t) place[std::size_t(v)] = on_boundary;
   for (std::size_t v = 0; v < place.size(); v++) {

@@ -59,7 +59,15 @@ void limit(__rlimit_resource resource, std::uint64_t bytes) {
   ::setrlimit(resource, &current);
 }
 
+/// As much stack as TetGen is likely to want: where all of the address space is used up, it could not grow any more, and
+/// that would be a crash.
+void grow_stack() {
+  volatile char stack[std::size_t(1) << 19];
+  for (std::size_t i = 0; i < sizeof stack; i += 1024) stack[i] = 0;
+}
+
 void limit_resources(std::uint64_t address_space) {
+  grow_stack();
   limit(RLIMIT_CORE, 0);
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // these reserve terabytes
   if (address_space) limit(RLIMIT_AS, address_space);

@@ -288,7 +288,7 @@ TEST_F(WorkerTest, MemoryLimit) {
     use(TETLOD_REMESH, megabytes << 20);
     try {
       worker->tetrahedralize(request, 0, job, reply);
-      FAIL() << megabytes;
+      FAIL() << megabytes << " MB: code " << reply.code << ", " << reply.failure;
     } catch (const Error &error) {
       EXPECT_EQ(error.status(), Status::memory_limit) << megabytes << ": " << error.what();
     }
