@@ -279,18 +279,21 @@ class SolidDecimator {
     if (!mesh_.has_vertex(v) || progress_.moved[std::size_t(v)] == progress_.round) return false;
     work.within_limit++;
     if (waits(v)) return false;
-    if (!costs_.is_known(cheapest(v))) costs_.find_cheapest(v, work.neighbours);
+    const bool is_known = costs_.is_known(cheapest(v));
+    if (!is_known) costs_.find_cheapest(v, work.neighbours);
     if (!(cheapest(v).cost <= limit)) {
       work.within_limit--;
       return false;
     }
     if (waits(cheapest(v).other)) return false;
-    return is_admissible(v, cheapest(v), work.collapse) || find_dearer(v, limit, work);
+    if (is_admissible(v, cheapest(v), work.collapse)) return true;
+    if (is_known) mesh_.find_neighbours(v, work.neighbours);
+    return find_dearer(v, limit, work);
   }
 
   bool waits(std::int32_t v) const { return !blocks_.is_inside(v); }
 
-  /// The same among the edges that cost more than the cheapest, which is not admissible.
+  /// The same among the edges that cost more than the cheapest, which is not admissible. work.neighbours: of v.
   bool find_dearer(std::int32_t v, double limit, Work &work) {
     Few<CheapestEdge, largest_cavity> dearer;
     const double tried = cheapest(v).cost;

@@ -3,6 +3,7 @@
 #pragma once
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
 
 #include "whole_arrays.hpp"
 
@@ -13,6 +14,12 @@ struct FaceUse {
   std::int32_t middle, high;  ///< the two other vertices
   std::uint32_t use;          ///< 4 t + k: the face of tet t opposite its corner k
   std::uint64_t others() const { return std::uint64_t(middle) << 32 | std::uint32_t(high); }
+  /// As good as others() to tell faces apart, and sooner read: the first two members.
+  std::uint64_t key() const {
+    std::uint64_t key;
+    std::memcpy(&key, this, sizeof key);
+    return key;
+  }
   std::size_t tet() const { return use / 4; }
   std::size_t corner() const { return use % 4; }
 };
@@ -90,9 +97,9 @@ class FaceSweep {
     std::fill(std::begin(slot), std::end(slot), none);
     for (std::size_t i = 0; i < count; i++) {
       mate[i] = none;
-      const std::uint64_t face = first[i].others();
+      const std::uint64_t face = first[i].key();
       std::size_t at = (face * 0x9e3779b97f4a7c15u) >> 56;
-      while (slot[at] != none && first[slot[at]].others() != face) at = (at + 1) % slots;
+      while (slot[at] != none && first[slot[at]].key() != face) at = (at + 1) % slots;
       const std::uint8_t other = slot[at];
       if (other == none) {
         slot[at] = std::uint8_t(i);

@@ -28,10 +28,9 @@ class SolidCosts {
     return may_be_removed(edge.other) || progress_.moved[std::size_t(edge.other)] < edge.round;
   }
 
-  /// visit(u, best) of each edge to a neighbour u that is looked at from v.
+  /// visit(u, best) of each edge to a neighbour u that is looked at from v. neighbours: of v.
   template <class Visit>
-  void for_edges(std::int32_t v, Neighbours &neighbours, const Visit &visit) const {
-    mesh_.find_neighbours(v, neighbours);
+  void for_edges(std::int32_t v, const Neighbours &neighbours, const Visit &visit) const {
     if (may_be_removed(v))
       return mesh_.for_removals(v, neighbours, [&](std::int32_t u, double cost) { visit(u, BestOfEdge{0, cost}); });
     for (std::int32_t u : neighbours) mesh_.prefetch_quadric(u);
@@ -39,9 +38,10 @@ class SolidCosts {
       if (owns(v, u)) visit(u, mesh_.cost(v, u));
   }
 
-  /// Of those of v that cost more than that.
+  /// Of those of v that cost more than that; finds the neighbours.
   void find_cheapest(std::int32_t v, Neighbours &neighbours, double more_than = -infinity) {
     CheapestEdge found{infinity, 0, -1, progress_.round};
+    mesh_.find_neighbours(v, neighbours);
     for_edges(v, neighbours, [&](std::int32_t u, const BestOfEdge &best) {
       const bool cheaper = (best.cost > more_than) & (best.cost < found.cost);
       found.cost = cheaper ? best.cost : found.cost;
