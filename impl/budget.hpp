@@ -20,12 +20,14 @@ inline double ratio_of(const Options &options) { return options.target_ratio > 0
 constexpr double small_mesh = 1e5;
 
 /// A coarse mesh by collapsing edges is more accurate; one from samples is there sooner, where the mesh is large, no
-/// thin one whose boundary takes longer, and little of it is kept, or so few tets that TetGen makes them soon. A bound
-/// alone asks for accuracy.
+/// thin one whose boundary takes longer, and little of it is kept, or so few tets that TetGen makes them soon. Samples
+/// do not stretch: a field that hardly changes along some direction asks for tets that do. A bound alone asks for
+/// accuracy.
 inline bool samples_sooner(const Options &options, const Report &report) {
-  constexpr double soon_made = 9000, little = 0.03, most = 0.045, thin = 0.125;
+  constexpr double soon_made = 9000, little = 0.03, most = 0.045, thin = 0.125, stretched = 0.004;
   const double tets = double(report.tets_in), ratio = options.target_ratio;
-  return tets >= small_mesh && double(report.boundary_triangles_in) <= thin * tets && ratio > 0 &&
+  return tets >= small_mesh && report.least_change >= stretched &&
+         double(report.boundary_triangles_in) <= thin * tets && ratio > 0 &&
          ratio <= std::clamp(soon_made / tets, little, most);
 }
 
@@ -41,7 +43,7 @@ inline int rounds_of(const Options &options, const Report &report) {
   return int(std::min(small_mesh / double(report.tets_in), most));
 }
 
-/// Where it matters most how soon it is there: the last collapses are not the best ones, but removals.
+/// Where it matters most how soon it is there.
 inline bool is_hasty(const Options &options, const Report &report) {
   constexpr std::int64_t many = 100000;
   return options.effort == effort_fast && options.max_error <= 0 && report.tets_in >= many;

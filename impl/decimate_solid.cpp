@@ -51,7 +51,7 @@ class SolidDecimator {
       works_.emplace_back(job.memory);
     }
     if (!options.holds_bound) places_.give_way(progress_.gave_way);
-    if (options.hasty) progress_.far = 1;
+    if (options.hasty) progress_.far = SolidProgress::far_in_haste;
     if (options.max_deviation > 0) deviation_.emplace(surface, options.max_deviation, job);
   }
 

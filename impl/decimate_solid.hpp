@@ -15,7 +15,7 @@ struct SolidOptions {
   std::int64_t enough = 0;   ///< with fewer than so many it also ends where collapses get dear
   double dearest = 0;        ///< what they may cost then, the square of a length
   double max_deviation = 0;  ///< as in DecimateOptions
-  bool hasty = false;        ///< vertices inside are removed all the way, and more of them in a round
+  bool hasty = false;        ///< vertices inside are removed nearer to the size, and more of them in a round
   bool holds_bound = false;  ///< what is flat gets no flatter, because a bound is to be held there
   double warm_start = 0;  ///< begins where earlier values left the solid, if the error gets larger by this part at most
   Span<const std::uint8_t> kept;      ///< original vertices that keep place and value; empty: none

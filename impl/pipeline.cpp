@@ -11,6 +11,7 @@
 #include "geometry.hpp"
 #include "hash.hpp"
 #include "kept_vertices.hpp"
+#include "least_change.hpp"
 #include "nested_solids.hpp"
 #include "prepared.hpp"
 #include "reconstruct_field.hpp"
@@ -45,7 +46,7 @@ class Pipeline {
     if (as_published(options_))
       sample();
     else
-      budget_ = first_budget(options_, original_.box.diagonal(), report_);
+      plan();
   }
 
   /// After begin().
@@ -255,6 +256,11 @@ class Pipeline {
     report_.unused_points = boundary_.unused_points - report_.merged_points - report_.nonfinite_points;
     report_.interior_points_in = std::int64_t(boundary_.interior.size());
     report_.boundary_triangles_in = std::int64_t(boundary_.triangles.size());
+  }
+
+  void plan() {
+    report_.least_change = least_change(original_.view);
+    budget_ = first_budget(options_, original_.box.diagonal(), report_);
   }
 
   void decimate(double sigma) {

@@ -41,13 +41,13 @@ struct SolidProgress {
   /// Far from so many tets vertices are removed, near them, or where no more may go, edges collapse. From here on it is
   /// so with `count` tets.
   void choose_way(std::int64_t count, std::int64_t tets);
-  static constexpr std::int64_t usually_far = 3;  ///< times the tets
+  static constexpr double usually_far = 3, far_in_haste = 1.5;  ///< times the tets
   /// Vertices, which costs are of.
   bool removes() const { return first_near == 0; }
   /// Whether the ways so far were those to so many tets.
   bool leads_to(std::int64_t tets) const { return is_far(last_far, tets) && !is_far(first_near, tets); }
 
-  std::int64_t far = usually_far;  ///< times the tets; 1: near the size, too
+  double far = usually_far;  ///< times the tets
   int round = 0;
   std::int64_t last_far = std::numeric_limits<std::int64_t>::max();        ///< tets, when that was chosen last
   std::int64_t first_near = 0;                                             ///< tets, when it was not for the first time
@@ -62,7 +62,7 @@ struct SolidProgress {
   Array<std::int32_t> into;  ///< of each vertex, the one that it has collapsed into since, or itself
 
  private:
-  bool is_far(std::int64_t count, std::int64_t tets) const { return count / far >= tets; }
+  bool is_far(std::int64_t count, std::int64_t tets) const { return double(count) >= far * double(tets); }
 };
 
 template <std::size_t m>

@@ -118,9 +118,13 @@ TEST_F(TargetedRun, AccurateFindsWhatIsExact) {
 TEST_F(TargetedRun, LittleOfALargeMesh) {
   options.effort = effort_fast;
   options.target_ratio = 0.02;
-  const auto attempts_for = [&](const Cell &cells, Worker &with) {
+  const auto attempts_for = [&](const Cell &cells, Worker &with, double along_z = 1) {
     Mesh original = kuhn_solid(cells, [](const Cell &) { return true; });
-    set_scalars(original, [](const Vec3 &p) { return std::sin(p.x / 300) + p.y; });
+    const Vec3 length = box_of(Span<const Vec3>(original.points.data(), original.points.size())).high;
+    set_scalars(original, [&](const Vec3 &p) {
+      const Vec3 q = 5.0 * p / length;
+      return std::sin(q.x) + std::sin(q.y + 1) + along_z * std::cos(q.z);
+    });
     result = Result(host.memory);
     run(input_of(original), options, with, host.job, result);
     expect_sound(original, 1e-3);
@@ -130,6 +134,7 @@ TEST_F(TargetedRun, LittleOfALargeMesh) {
   const Cell cube{26, 26, 26}, strip{17000, 1, 1};
   EXPECT_GE(attempts_for(cube, worker), 1);
   EXPECT_EQ(attempts_for(strip, worker), 0);
+  EXPECT_EQ(attempts_for(cube, worker, 0.01), 0);  // tets that stretch along z do better
 
   const std::string failures = testing::TempDir() + "tetlod_failures_" + std::to_string(::getpid());
   ::setenv("FAKE_REMESH_FAILURES", failures.c_str(), 1);
