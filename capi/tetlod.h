@@ -119,8 +119,8 @@ typedef struct tetlod_config {
   uint32_t api_version; /* TETLOD_API_VERSION */
   /* Allocator: both or neither. `allocate` returns memory of that alignment (a power of two) or NULL, `release` gets
    * what allocate got. They may be called from several threads at once when TETLOD_OPT_THREADS is above 1. The
-   * context itself, messages, OpenMesh's surface and oneTBB's tasks come from operator new; OpenMesh's share is counted.
-   * Without an allocator large arrays are the system's huge pages, given back, but for what is kept, when a call ends. */
+   * context itself, messages, OpenMesh's surface and oneTBB's tasks come from operator new; OpenMesh's is counted.
+   * Without an allocator large arrays are the system's huge pages, given back, but for what is kept, after a call. */
   void *(*allocate)(void *user, size_t bytes, size_t alignment);
   void (*release)(void *user, void *pointer, size_t bytes, size_t alignment);
   void *allocator_user;
@@ -320,9 +320,9 @@ enum {
                                    values' errors, and the smaller the mesh, the more passes follow, up to 12, that also
                                    remove and insert vertices; remeshed is only what cannot be had so (a size beyond the
                                    mesh's topology, tets that overlap), and where clean-edges is set. TETLOD_EFFORT_FAST:
-                                   the same without the passes; and of 100,000 tets or more, no thin solid, to 0.04
-                                   (or 13,000 tets) the boundary is decimated by quadrics that see the field, samples
-                                   are taken where a linear field would be wrong, both are remeshed, one pass follows */
+                                   the same without the passes; of 100,000 tets or more sooner, and to 0.03 (or 9,000
+                                   tets) the boundary is decimated by quadrics that see the field, samples are taken
+                                   where a linear field would be wrong, both are remeshed, and one pass follows */
   TETLOD_OPT_MAX_ERROR = 22,    /* real, "max-error": bound of the error at every original vertex, as a fraction of the
                                    values' range, for every field that steers; one that lies outside the result is
                                    compared at the nearest point of its boundary, and in tets that it is out of
