@@ -277,15 +277,11 @@ class SolidDecimator {
   /// The cheapest admissible one of an edge of v within the limit. A vertex moves once a round.
   bool find(std::int32_t v, double limit, Work &work) {
     if (!mesh_.has_vertex(v) || progress_.moved[std::size_t(v)] == progress_.round) return false;
-    work.within_limit++;
-    if (waits(v)) return false;
-    const bool is_known = costs_.is_known(cheapest(v));
+    const bool waits_itself = waits(v), is_known = waits_itself || costs_.is_known(cheapest(v));
     if (!is_known) costs_.find_cheapest(v, work.neighbours);
-    if (!(cheapest(v).cost <= limit)) {
-      work.within_limit--;
-      return false;
-    }
-    if (waits(cheapest(v).other)) return false;
+    if (!(cheapest(v).cost <= limit)) return false;
+    work.within_limit++;
+    if (waits_itself || waits(cheapest(v).other)) return false;
     if (is_admissible(v, cheapest(v), work.collapse)) return true;
     if (is_known) mesh_.find_neighbours(v, work.neighbours);
     return find_dearer(v, limit, work);

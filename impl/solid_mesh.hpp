@@ -114,7 +114,7 @@ class SolidMesh : public SolidComplex {
       const std::int32_t pair[2] = {u[0], u[left > 1]};
       const Place a = place(pair[0]), b = place(pair[1]);
       std::array<Pair, 3 + m> d;
-      for (std::size_t i = 0; i < d.size(); i++) d[i] = Pair{a[i], b[i]} - Pair{from[i], from[i]};
+      for (std::size_t i = 0; i < d.size(); i++) d[i] = Pair{a[i], b[i]} - both(from[i]);
       const Pair length2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2], of_length = both(shape_share * q.a[tets_of_vertex]);
       const Pair cost = q.rise(d) + of_length * length2;
       for (std::size_t k = 0; k < std::min<std::size_t>(left, 2); k++)
