@@ -19,7 +19,7 @@ constexpr double tolerance = 1e-6;
 /// of both for a small mesh, whose vertices alone would say too little of what is between them.
 constexpr double everywhere = 0.14, by_change = 0.42, small_mesh = 1e5, most_for_small = 1.6;
 /// Probes for each tet of a result that say enough of it, and of those so many where there are no rounds.
-constexpr double vertices_a_tet = 8, inner_a_tet = 8, vertices_without_rounds = 4, inner_without_rounds = 2;
+constexpr double vertices_a_tet = 8, inner_a_tet = 8, vertices_without_rounds = 4, inner_without_rounds = 1;
 constexpr std::size_t block = 1024;
 constexpr int longest_walk = 200;
 
@@ -211,10 +211,11 @@ class Locator {
   std::int32_t walk(const Vec3 &p, std::int32_t t) const {
     for (int step = 0; step < longest_walk; step++) {
       double w[4];
-      if (frames_[std::size_t(t)].weights(p, w) >= 0) return t;
-      const auto worst = std::size_t(std::min_element(w, w + 4) - w);
-      t = mesh_.neighbours[std::size_t(t)][worst];
-      if (t < 0) return -1;
+      const double least = frames_[std::size_t(t)].weights(p, w);
+      if (least >= 0) return t;
+      const std::int32_t next = mesh_.neighbours[std::size_t(t)][std::size_t(std::min_element(w, w + 4) - w)];
+      if (next < 0) return least >= -tolerance ? t : -1;
+      t = next;
     }
     return -1;
   }
