@@ -104,10 +104,10 @@ class SolidDecimator {
 
   /// What a block does in a round.
   struct Work {
-    explicit Work(Memory &memory) : items(&memory), collapse(memory), neighbours(memory) {}
+    explicit Work(Memory &memory) : items(&memory), collapse(memory), edges(memory) {}
     Array<std::int32_t> items;
     SolidCollapse<m> collapse;
-    Neighbours neighbours;
+    EdgeCosts edges;
     std::int64_t most = 0, gone = 0;         ///< tets
     std::size_t within_limit = 0, made = 0;  ///< vertices, as far as is known, and collapses
     double cost = 0;
@@ -278,26 +278,28 @@ class SolidDecimator {
   bool find(std::int32_t v, double limit, Work &work) {
     if (!mesh_.has_vertex(v) || progress_.moved[std::size_t(v)] == progress_.round) return false;
     const bool waits_itself = waits(v), is_known = waits_itself || costs_.is_known(cheapest(v));
-    if (!is_known) costs_.find_cheapest(v, work.neighbours);
+    if (!is_known) costs_.find_cheapest(v, work.edges);
     if (!(cheapest(v).cost <= limit)) return false;
     work.within_limit++;
     if (waits_itself || waits(cheapest(v).other)) return false;
     if (is_admissible(v, cheapest(v), work.collapse)) return true;
-    if (is_known) mesh_.find_neighbours(v, work.neighbours);
+    if (is_known) costs_.find_costs(v, work.edges);
     return find_dearer(v, limit, work);
   }
 
   bool waits(std::int32_t v) const { return !blocks_.is_inside(v); }
 
-  /// The same among the edges that cost more than the cheapest, which is not admissible. work.neighbours: of v.
+  /// The same among the edges that cost more than the cheapest, which is not admissible. work.edges: of v.
   bool find_dearer(std::int32_t v, double limit, Work &work) {
     Few<CheapestEdge, largest_cavity> dearer;
     const double tried = cheapest(v).cost;
     CheapestEdge later{infinity, 0, -1, stuck};
-    costs_.for_edges(v, work.neighbours, [&](std::int32_t u, const BestOfEdge &best) {
-      if (best.cost > tried && best.cost <= limit) dearer.push({best.cost, best.t, u, progress_.round});
-      if (best.cost > limit && best.cost < later.cost) later = {best.cost, best.t, u, progress_.round};
-    });
+    for (std::size_t i = 0; i < work.edges.size(); i++) {
+      const BestOfEdge &best = work.edges.costs[i];
+      const CheapestEdge edge{best.cost, best.t, work.edges.neighbours.begin()[i], progress_.round};
+      if (best.cost > tried && best.cost <= limit) dearer.push(edge);
+      if (best.cost > limit && best.cost < later.cost) later = edge;
+    }
     const auto is_cheaper = [](const CheapestEdge &a, const CheapestEdge &b) {
       return a.cost != b.cost ? a.cost < b.cost : a.other < b.other;
     };
@@ -320,7 +322,7 @@ class SolidDecimator {
     const std::int32_t v = collapse.edge.stays;
     if (deviation_ && collapse.of_boundary) {
       if (deviation_->is_passed(collapse.star)) {
-        costs_.find_cheapest(collapse.found_at, work.neighbours, cheapest(collapse.found_at).cost);
+        costs_.find_cheapest(collapse.found_at, work.edges, cheapest(collapse.found_at).cost);
         return;
       }
       deviation_->move_on(collapse.star);

@@ -6,6 +6,14 @@
 
 namespace tetlod {
 
+/// The edges of one vertex after another, and what each costs; for one thread at a time.
+struct EdgeCosts {
+  explicit EdgeCosts(Memory &memory) : neighbours(memory), costs(&memory) {}
+  std::size_t size() const { return neighbours.size(); }
+  Neighbours neighbours;
+  Array<BestOfEdge> costs;  ///< of the edge to each of these; infinite where the edge is looked at from there
+};
+
 template <std::size_t m>
 class SolidCosts {
  public:
@@ -28,37 +36,43 @@ class SolidCosts {
     return may_be_removed(edge.other) || progress_.moved[std::size_t(edge.other)] < edge.round;
   }
 
-  /// visit(u, best) of each edge to a neighbour u that is looked at from v. neighbours: of v.
-  template <class Visit>
-  void for_edges(std::int32_t v, const Neighbours &neighbours, const Visit &visit) const {
-    if (may_be_removed(v))
-      return mesh_.for_removals(v, neighbours, [&](std::int32_t u, double cost) { visit(u, BestOfEdge{0, cost}); });
+  /// Of v.
+  void find_costs(std::int32_t v, EdgeCosts &edges) const {
+    const Neighbours &neighbours = edges.neighbours;
+    mesh_.find_neighbours(v, edges.neighbours);
+    if (edges.costs.size() < edges.size()) edges.costs.resize(edges.size());
+    BestOfEdge *next = edges.costs.data();
+    if (may_be_removed(v)) {
+      mesh_.for_removals(v, neighbours, [&](std::int32_t, double cost) { *next++ = {0, cost}; });
+      return;
+    }
     for (std::int32_t u : neighbours) mesh_.prefetch_quadric(u);
-    for (std::int32_t u : neighbours)
-      if (owns(v, u)) visit(u, mesh_.cost(v, u));
+    for (std::int32_t u : neighbours) *next++ = owns(v, u) ? mesh_.cost(v, u) : BestOfEdge{0, infinity};
   }
 
-  /// Of those of v that cost more than that; finds the neighbours.
-  void find_cheapest(std::int32_t v, Neighbours &neighbours, double more_than = -infinity) {
+  /// Of those of v that cost more than that.
+  void find_cheapest(std::int32_t v, EdgeCosts &edges, double more_than = -infinity) {
     CheapestEdge found{infinity, 0, -1, progress_.round};
-    mesh_.find_neighbours(v, neighbours);
-    for_edges(v, neighbours, [&](std::int32_t u, const BestOfEdge &best) {
+    find_costs(v, edges);
+    const std::int32_t *u = edges.neighbours.begin();
+    for (std::size_t i = 0; i < edges.size(); i++) {
+      const BestOfEdge &best = edges.costs[i];
       const bool cheaper = (best.cost > more_than) & (best.cost < found.cost);
       found.cost = cheaper ? best.cost : found.cost;
       found.t = cheaper ? best.t : found.t;
-      found.other = cheaper ? u : found.other;
-    });
+      found.other = cheaper ? u[i] : found.other;
+    }
     progress_.cheapest[std::size_t(v)] = found;
   }
 
   /// The cheapest of each of these vertices that is to be looked for.
   void find_missing(Span<const std::int32_t> vertices, Job &job) {
     job.parallel.for_blocks(vertices.size(), 256, [&](std::size_t begin, std::size_t end) {
-      Neighbours neighbours(job.memory);
+      EdgeCosts edges(job.memory);
       for (std::size_t i = begin; i < end; i++) {
         mesh_.prefetch_after(i, vertices);
         if (i + mesh_.ahead < end) mesh_.prefetch_quadric(vertices[i + mesh_.ahead]);
-        if (!progress_.cheapest[std::size_t(vertices[i])].is_found()) find_cheapest(vertices[i], neighbours);
+        if (!progress_.cheapest[std::size_t(vertices[i])].is_found()) find_cheapest(vertices[i], edges);
       }
       job.poll(0);
     });

@@ -102,11 +102,12 @@ class SolidMesh : public SolidComplex {
 
   /// Of collapsing the edge; infinite where neither end may go.
   BestOfEdge cost(std::int32_t v, std::int32_t u) const;
-  /// visit(u, cost) of moving v, which is inside, into each neighbour u, which keeps place and values; infinite where
-  /// that may not be. Two at a time, with the bytes of one at a time.
+  /// visit(u, cost) of moving v, which is inside, into each neighbour u in turn, which keeps place and values; infinite
+  /// where that may not be. Two at a time, with the bytes of one at a time.
   template <class Visit>
   void for_removals(std::int32_t v, const Neighbours &neighbours, const Visit &visit) const {
-    if (!may_go(v)) return;
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const bool goes = may_go(v);
     const Quadric &q = quadric(v);
     const Place from = place(v);
     const std::int32_t *u = neighbours.begin();
@@ -118,7 +119,7 @@ class SolidMesh : public SolidComplex {
       const Pair length2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2], of_length = both(shape_share * q.a[tets_of_vertex]);
       const Pair cost = q.rise(d) + of_length * length2;
       for (std::size_t k = 0; k < std::min<std::size_t>(left, 2); k++)
-        visit(pair[k], rank(pair[k]) == Rank::touching ? std::numeric_limits<double>::infinity() : cost[k]);
+        visit(pair[k], !goes || rank(pair[k]) == Rank::touching ? infinity : cost[k]);
     }
   }
 
