@@ -56,6 +56,26 @@ std::vector<double> values_of(vtkDataArray &array) {
   return values;
 }
 
+// ---- Middles of edges ----
+
+using Edge = std::array<std::int32_t, 2>;
+
+Edge edge_of(const Tet &tet, std::size_t from, std::size_t to) {
+  return {std::min(tet[from], tet[to]), std::max(tet[from], tet[to])};
+}
+
+constexpr std::size_t kEdges[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
+
+std::vector<Edge> edges_of(const std::vector<Tet> &tets) {
+  std::vector<Edge> edges;
+  for (const Tet &tet : tets) {
+    for (const auto &[from, to] : kEdges) edges.push_back(edge_of(tet, from, to));
+  }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
+}
+
 // ---- The front ----
 
 // A lattice of n cells along each axis over the unit cube.
@@ -135,6 +155,33 @@ std::optional<std::string> find_data(const std::string &name) {
     if (fs::exists(folder / name)) return (folder / name).string();
   }
   return std::nullopt;
+}
+
+Mesh refined(const Mesh &mesh) {
+  // Corners of the parts: 0 to 3 are the tet's, 4 to 9 the middles of its edges.
+  static constexpr std::size_t parts[8][4] = {{0, 4, 5, 6}, {4, 1, 7, 8}, {5, 7, 2, 9}, {6, 8, 9, 3},
+                                              {4, 5, 6, 8}, {4, 7, 5, 8}, {5, 9, 6, 8}, {5, 7, 9, 8}};
+  const std::vector<Edge> edges = edges_of(mesh.tets);
+  Mesh fine{mesh.points, {}, mesh.values};
+  for (const Edge &edge : edges) {
+    const auto a = static_cast<std::size_t>(edge[0]), b = static_cast<std::size_t>(edge[1]);
+    Point middle;
+    for (std::size_t k = 0; k < 3; k++) middle[k] = 0.5 * (mesh.points[a][k] + mesh.points[b][k]);
+    fine.points.push_back(middle);
+    fine.values.push_back(0.5 * (mesh.values[a] + mesh.values[b]));
+  }
+  for (const Tet &tet : mesh.tets) {
+    std::int32_t corners[10] = {tet[0], tet[1], tet[2], tet[3]};
+    for (std::size_t e = 0; e < 6; e++) {
+      const Edge edge = edge_of(tet, kEdges[e][0], kEdges[e][1]);
+      const auto place = std::lower_bound(edges.begin(), edges.end(), edge) - edges.begin();
+      corners[4 + e] = static_cast<std::int32_t>(mesh.points.size()) + static_cast<std::int32_t>(place);
+    }
+    for (const auto &part : parts) {
+      fine.tets.push_back({corners[part[0]], corners[part[1]], corners[part[2]], corners[part[3]]});
+    }
+  }
+  return fine;
 }
 
 Mesh make_front_mesh(std::int64_t tets, double time) {

@@ -30,6 +30,9 @@ Mesh read_mesh(const std::string &path);
 // `name` in the folder that the environment's TETLOD_DATA_DIR names, else in ../shared/data beside the checkout.
 std::optional<std::string> find_data(const std::string &name);
 
+// Each tet in eight around the middles of its edges, where the values are those between. The field is the same.
+Mesh refined(const Mesh &mesh);
+
 // A box of cubes, each cut into six tets around its diagonal, as near to `tets` as whole cubes allow. The field is a
 // bent front, steep across and smooth along, that travels through a slow swell as `time` goes from 0 to 1.
 Mesh make_front_mesh(std::int64_t tets, double time);

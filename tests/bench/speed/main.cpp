@@ -9,6 +9,7 @@
 
 #include "boundary_duel.hpp"
 #include "floor_duel.hpp"
+#include "fresh_contest.hpp"
 #include "kd_tree_duel.hpp"
 #include "location_duel.hpp"
 #include "print_tables.hpp"
@@ -42,8 +43,9 @@ void add_options(CLI::App &app, Arguments &a) {
   app.add_option("--growth-target", a.growth_target, "part of the tets kept there")->check(part)->capture_default_str();
   app.add_option("--peer-limit", a.growth.peer_limit, "tets beyond which growth goes without the peer")
       ->capture_default_str();
-  app.add_option("--parts", a.parts, "the real mesh, the generated one, duels about stages and floors, growth")
-      ->check(CLI::IsMember({"real", "generated", "stages", "growth"}))
+  app.add_option("--parts", a.parts,
+                 "the real mesh, the generated one, duels about stages and floors, growth; fresh: in new processes")
+      ->check(CLI::IsMember({"real", "generated", "stages", "growth", "fresh"}))
       ->delimiter(',')
       ->capture_default_str();
   app.add_option("--rounds", a.rounds, "of which medians are taken")->check(CLI::Range(1, 1000))->capture_default_str();
@@ -80,11 +82,12 @@ class Bench {
 
   void run() {
     bench::print_head(stdout);
+    if (wants("fresh")) in_new_processes();  // first: others start threads
     if (wants("real")) real_mesh();
     if (wants("generated")) generated_mesh();
     bench::print_speeds(stdout, contests_, duels_);
     if (wants("growth") && !a_.growth.tets.empty()) grow();
-    if (!a_.json.empty()) bench::write_json(a_.json, contests_, duels_, growth_);
+    if (!a_.json.empty()) bench::write_json(a_.json, contests_, duels_, growth_, fresh_);
   }
 
   // 0 when tetlod kept within the limit on every mesh.
@@ -108,14 +111,41 @@ class Bench {
     bench::print_contest(stdout, contests_.back());
   }
 
-  void real_mesh() {
-    const std::optional<std::string> path = a_.file.empty() ? bench::find_data("bluntfin.vtu") : a_.file;
-    if (!path) {
-      std::printf("\nblunt fin: skipped, there is no bluntfin.vtu in TETLOD_DATA_DIR or in ../shared/data\n");
-      return;
+  // None, having said so: it is not there.
+  static std::optional<bench::Mesh> read_data(const std::string &file) {
+    const std::optional<std::string> path = bench::find_data(file);
+    if (path) return bench::read_mesh(*path);
+    std::printf("\nskipped: there is no %s in TETLOD_DATA_DIR or in ../shared/data\n", file.c_str());
+    return std::nullopt;
+  }
+
+  std::optional<bench::Mesh> read_real_mesh() const {
+    return a_.file.empty() ? read_data("bluntfin.vtu") : bench::read_mesh(a_.file);
+  }
+  std::string name_of_real_mesh() const { return a_.file.empty() ? "blunt fin" : a_.file; }
+
+  void in_new_processes() {
+    bench::print_fresh_head(stdout, a_.threads);
+    if (const auto mesh = read_real_mesh()) fresh(name_of_real_mesh(), *mesh, a_.file_targets);
+    if (const auto mesh = a_.file.empty() ? read_data("comb.vtu") : std::nullopt) {
+      fresh("comb", *mesh, {a_.targets.front()});
+      fresh("comb, each tet in eight", bench::refined(*mesh), a_.targets);
     }
-    const std::string name = a_.file.empty() ? "blunt fin" : a_.file;
-    const bench::Mesh mesh = bench::read_mesh(*path);
+    fresh("generated front", bench::make_front_mesh(a_.tets, a_.growth.time), a_.targets);
+  }
+
+  void fresh(const std::string &name, const bench::Mesh &mesh, const std::vector<double> &targets) {
+    for (const double target : targets) {
+      fresh_.push_back(bench::hold_fresh_contest(name, mesh, target, a_.threads, a_.rounds));
+      bench::print_fresh(stdout, fresh_.back());
+    }
+  }
+
+  void real_mesh() {
+    const std::optional<bench::Mesh> read = read_real_mesh();
+    if (!read) return;
+    const bench::Mesh &mesh = *read;
+    const std::string name = name_of_real_mesh();
     for (const std::int64_t threads : a_.threads) {
       for (const double target : a_.file_targets) contest(name, mesh, fast_at(target, threads));
     }
@@ -150,6 +180,7 @@ class Bench {
   const Arguments &a_;
   std::vector<bench::Contest> contests_;
   std::vector<bench::Duel> duels_;
+  std::vector<bench::FreshContest> fresh_;
   std::optional<bench::Growth> growth_;
 };
 

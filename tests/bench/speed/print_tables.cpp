@@ -159,6 +159,33 @@ void print_speeds(std::FILE *to, const std::vector<Contest> &contests, const std
   std::fflush(to);
 }
 
+void print_fresh_head(std::FILE *to, const std::vector<std::int64_t> &threads) {
+  std::string columns, rule;
+  for (const std::int32_t preset : {TETLOD_PRESET_FAST, TETLOD_PRESET_ACCURATE}) {
+    for (const std::int64_t n : threads) {
+      Parameters p;
+      p.threads = n;
+      columns += std::string(" | ") + preset_name(preset) + threads_of(p) + " | times faster";
+      rule += "---|---|";
+    }
+  }
+  std::fprintf(
+      to,
+      "\nIn new processes: wall seconds, the least of the rounds; times faster of the least, and of the medians\n\n");
+  std::fprintf(to, "| set | tets | kept | the peer%s |\n|---|---|---|---|%s\n", columns.c_str(), rule.c_str());
+}
+
+void print_fresh(std::FILE *to, const FreshContest &c) {
+  std::fprintf(to, "| %s | %s | %s | %.2f |", c.set.c_str(), grouped(c.tets_in).c_str(), percent(c.target).c_str(),
+               c.peer.least);
+  for (const FreshRuns &run : c.runs) {
+    std::fprintf(to, " %.3f | %.1f (%.1f) |", run.wall.least, c.peer.least / run.wall.least,
+                 c.peer.median / run.wall.median);
+  }
+  std::fprintf(to, "\n");
+  std::fflush(to);
+}
+
 void print_growth(std::FILE *to, const Growth &growth) {
   std::fprintf(to, "\nGrowth on the generated front; seconds of the CPU and of the wall clock\n\n");
   std::fprintf(to,

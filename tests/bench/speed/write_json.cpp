@@ -105,16 +105,33 @@ Json json_of(const std::vector<Duel> &duels) {
   return list;
 }
 
+Json json_of(const std::vector<FreshContest> &contests) {
+  Json list = Json::array();
+  for (const FreshContest &contest : contests) {
+    Json runs = Json::array();
+    for (const FreshRuns &run : contest.runs) {
+      runs.push_back({{"preset", preset_name(run.preset)}, {"threads", run.threads}, {"wall", json_of(run.wall)}});
+    }
+    list.push_back({{"set", contest.set},
+                    {"tets_in", contest.tets_in},
+                    {"target", contest.target},
+                    {"peer_wall", json_of(contest.peer)},
+                    {"runs", runs}});
+  }
+  return list;
+}
+
 }  // namespace
 
 void write_json(const std::string &path, const std::vector<Contest> &contests, const std::vector<Duel> &duels,
-                const std::optional<Growth> &growth) {
+                const std::optional<Growth> &growth, const std::vector<FreshContest> &fresh) {
   Json json = {{"tetlod", tetlod_build_info()}, {"contests", json_of(contests)}, {"duels", json_of(duels)}};
   if (growth) {
     json["growth"] = {{"sizes", json_of(growth->sizes)},
                       {"tetlod_exponent", growth->tetlod_exponent},
                       {"peer_exponent", growth->peer_exponent}};
   }
+  if (!fresh.empty()) json["fresh"] = json_of(fresh);
   std::ofstream file(path);
   file << json.dump(2) << '\n';
   file.close();
