@@ -59,8 +59,8 @@ void limit(__rlimit_resource resource, std::uint64_t bytes) {
   ::setrlimit(resource, &current);
 }
 
-/// As much stack as TetGen is likely to want: where all of the address space is used up, it could not grow any more, and
-/// that would be a crash.
+/// As much stack as TetGen is likely to want: where all of the address space is used up, it could not grow any more,
+/// and that would be a crash.
 void grow_stack() {
   volatile char stack[std::size_t(1) << 19];
   for (std::size_t i = 0; i < sizeof stack; i += 1024) stack[i] = 0;
