@@ -18,8 +18,10 @@ constexpr double tolerance = 1e-6;
 /// Probes inside a tet of the original: so many for every tet, and so many times its share of the field's changes; more
 /// of both for a small mesh, whose vertices alone would say too little of what is between them.
 constexpr double everywhere = 0.14, by_change = 0.42, small_mesh = 1e5, most_for_small = 1.6;
-/// Probes for each tet of a result that say enough of it, and of those so many where there are no rounds.
-constexpr double vertices_a_tet = 8, inner_a_tet = 8, vertices_without_rounds = 4, inner_without_rounds = 1;
+/// Probes for each tet of a result that say enough of it, of those so many where there are no rounds, and inside tets
+/// where values are fitted alone.
+constexpr double vertices_a_tet = 8, inner_a_tet = 8, vertices_without_rounds = 4, inner_without_rounds = 2,
+                 inner_for_values = 1;
 constexpr std::size_t block = 1024;
 constexpr int longest_walk = 200;
 
@@ -333,10 +335,10 @@ Array<std::int32_t> sort_by_home(std::size_t begin, std::size_t end, Job &job, A
 
 }  // namespace
 
-ProbeOptions enough_probes(double tets, int rounds) {
+ProbeOptions enough_probes(double tets, int rounds, bool follows_field) {
   ProbeOptions options;
   options.most_vertices = (rounds > 0 ? vertices_a_tet : vertices_without_rounds) * tets;
-  options.most_inner = (rounds > 0 ? inner_a_tet : inner_without_rounds) * tets;
+  options.most_inner = (rounds > 0 ? inner_a_tet : follows_field ? inner_without_rounds : inner_for_values) * tets;
   return options;
 }
 

@@ -50,7 +50,8 @@ class Refinement {
   }
 
   RefineReport run() {
-    const ProbeOptions enough = projected(enough_probes(double(options_.tets), options_.rounds));
+    const ProbeOptions enough =
+        projected(enough_probes(double(options_.tets), options_.rounds, options_.follows_field));
     place_probes(original_, enough, job_, mesh_);
     if (options_.follows_field) follow_field();
     insert(options_.before_lowering - count());
