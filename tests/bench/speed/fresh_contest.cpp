@@ -1,29 +1,15 @@
 #include "fresh_contest.hpp"
 
-#include "new_process.hpp"
-#include "run_peer.hpp"
+#include "mesh_file.hpp"
+#include "run_rival.hpp"
 
 namespace bench {
 namespace {
 
-struct Outcome {
-  double wall;
-  std::int64_t tets;
-};
-
-Outcome outcome_of(const Mesh &mesh, std::int32_t preset, double target, std::int64_t threads) {
-  Parameters parameters;
-  parameters.preset = preset;
-  parameters.target = target;
-  parameters.threads = threads;
-  return in_new_process([&]() -> Outcome {
-    const TetlodRun run = run_tetlod(mesh, parameters);
-    return {run.cost.wall, run.report.tets_out};
-  });
-}
-
-double peer_seconds(const Mesh &mesh, std::int64_t tets) {
-  return in_new_process([&] { return Peer(mesh).run(tets).cost.wall; });
+double seconds_of(const char *who, const MeshOnDisk &mesh, double target, std::int64_t threads) {
+  const std::string arguments =
+      "'" + mesh.path() + "' " + who + " " + std::to_string(target) + " " + std::to_string(threads);
+  return run_rival("bench_contestant", arguments, "nothing").wall;
 }
 
 }  // namespace
@@ -36,11 +22,12 @@ FreshContest hold_fresh_contest(const std::string &set, const Mesh &mesh, double
   }
   std::vector<std::vector<double>> seconds(contest.runs.size());
   std::vector<double> of_peer;
-  const std::int64_t goal = outcome_of(mesh, TETLOD_PRESET_FAST, target, threads.front()).tets;
+  const MeshOnDisk file(mesh);
   for (int round = 0; round < rounds; round++) {
-    of_peer.push_back(peer_seconds(mesh, goal));
+    of_peer.push_back(seconds_of("peer", file, target, 1));
     for (std::size_t i = 0; i < contest.runs.size(); i++) {
-      seconds[i].push_back(outcome_of(mesh, contest.runs[i].preset, target, contest.runs[i].threads).wall);
+      const FreshRuns &run = contest.runs[i];
+      seconds[i].push_back(seconds_of(preset_name(run.preset), file, target, run.threads));
     }
   }
   contest.peer = spread_of(of_peer);

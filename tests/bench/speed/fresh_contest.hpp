@@ -1,4 +1,4 @@
-// tetlod and its peer on one mesh, in turns, each run in a process of its own.
+// tetlod and its peer on one mesh, in turns, each run in a program of its own, where memory has yet to be handed out.
 #pragma once
 
 #include <string>
@@ -23,8 +23,8 @@ struct FreshContest {
   std::vector<FreshRuns> runs;
 };
 
-// The presets fast and accurate with each of these numbers of threads. The peer collapses to the number of tets that
-// `fast` reached.
+// The presets fast and accurate with each of these numbers of threads. All are to keep `target` of the tets, which
+// tetlod meets by a thousandth.
 FreshContest hold_fresh_contest(const std::string &set, const Mesh &mesh, double target,
                                 const std::vector<std::int64_t> &threads, int rounds);
 

@@ -44,7 +44,7 @@ void add_options(CLI::App &app, Arguments &a) {
   app.add_option("--peer-limit", a.growth.peer_limit, "tets beyond which growth goes without the peer")
       ->capture_default_str();
   app.add_option("--parts", a.parts,
-                 "the real mesh, the generated one, duels about stages and floors, growth; fresh: in new processes")
+                 "the real mesh, the generated one, duels about stages and floors, growth; fresh: new programs")
       ->check(CLI::IsMember({"real", "generated", "stages", "growth", "fresh"}))
       ->delimiter(',')
       ->capture_default_str();
@@ -82,7 +82,7 @@ class Bench {
 
   void run() {
     bench::print_head(stdout);
-    if (wants("fresh")) in_new_processes();  // first: others start threads
+    if (wants("fresh")) in_new_programs();
     if (wants("real")) real_mesh();
     if (wants("generated")) generated_mesh();
     bench::print_speeds(stdout, contests_, duels_);
@@ -124,7 +124,7 @@ class Bench {
   }
   std::string name_of_real_mesh() const { return a_.file.empty() ? "blunt fin" : a_.file; }
 
-  void in_new_processes() {
+  void in_new_programs() {
     bench::print_fresh_head(stdout, a_.threads);
     if (const auto mesh = read_real_mesh()) fresh(name_of_real_mesh(), *mesh, a_.file_targets);
     if (const auto mesh = a_.file.empty() ? read_data("comb.vtu") : std::nullopt) {

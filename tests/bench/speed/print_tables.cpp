@@ -171,7 +171,7 @@ void print_fresh_head(std::FILE *to, const std::vector<std::int64_t> &threads) {
   }
   std::fprintf(
       to,
-      "\nIn new processes: wall seconds, the least of the rounds; times faster of the least, and of the medians\n\n");
+      "\nIn new programs: wall seconds, the least of the rounds; times faster of the least, and of the medians\n\n");
   std::fprintf(to, "| set | tets | kept | the peer%s |\n|---|---|---|---|%s\n", columns.c_str(), rule.c_str());
 }
 
