@@ -173,7 +173,7 @@ std::size_t bytes_to_refine(const MeshView &original, std::int64_t tets, int rou
   of.tets = double(tets);
   of.points = of.tets / tets_a_point;
   of.fields = double(original.fields);
-  of.probes = double(expected_probes(original, enough_probes(of.tets, rounds)));
+  of.probes = double(expected_probes(original, enough_probes(of.tets, rounds, true)));
   return std::size_t(bytes_of_refining(of));
 }
 
@@ -198,7 +198,7 @@ Outlook outlook_of(const Original &original, const Boundary &boundary, Span<cons
   of.tets = std::max(double(budget.tets), tets_for_bound(original.view, options.max_error * original.range, job));
   of.points = of.tets / tets_a_point;
   const double first = std::max(double(budget.tets), std::min(of.tets, double(budget.enough)));
-  of.probes = double(expected_probes(original.view, enough_probes(first, rounds_of(options, report))));
+  of.probes = double(expected_probes(original.view, enough_probes(first, rounds_of(options, report), true)));
   return of;
 }
 

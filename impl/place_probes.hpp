@@ -13,7 +13,7 @@ struct ProbeOptions {
 
 /// As many as say enough of a result of so many tets, refined in so many rounds: more cost time and memory alone.
 /// follows_field: vertices move and faces flip, too.
-ProbeOptions enough_probes(double tets, int rounds, bool follows_field = true);
+ProbeOptions enough_probes(double tets, int rounds, bool follows_field);
 
 /// How many there will be, not many less.
 std::size_t expected_probes(const MeshView &original, const ProbeOptions &options);

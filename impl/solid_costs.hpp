@@ -6,12 +6,12 @@
 
 namespace tetlod {
 
-/// The edges of one vertex after another, and what each costs; for one thread at a time.
+/// The edges of one vertex after another, and what each costs; for one thread at a time, which keeps the room.
 struct EdgeCosts {
   explicit EdgeCosts(Memory &memory) : neighbours(memory), costs(&memory) {}
   std::size_t size() const { return neighbours.size(); }
   Neighbours neighbours;
-  Array<BestOfEdge> costs;  ///< of the edge to each of these; infinite where the edge is looked at from there
+  Array<BestOfEdge> costs;  ///< of the edge to each of these; infinite where it may not go or is looked at from there
 };
 
 template <std::size_t m>
@@ -36,7 +36,7 @@ class SolidCosts {
     return may_be_removed(edge.other) || progress_.moved[std::size_t(edge.other)] < edge.round;
   }
 
-  /// Of v.
+  /// Of the edges of v.
   void find_costs(std::int32_t v, EdgeCosts &edges) const {
     const Neighbours &neighbours = edges.neighbours;
     mesh_.find_neighbours(v, edges.neighbours);

@@ -1,48 +1,14 @@
 #include "outside_judge.hpp"
 
-#include <unistd.h>
-
 #include <array>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "mesh_file.hpp"
+
 namespace bench {
 namespace {
-
-// Removed with its scope.
-class TemporaryMesh {
- public:
-  TemporaryMesh(const Mesh &mesh, const std::string &name)
-      : path_((std::filesystem::temp_directory_path() / (std::to_string(getpid()) + name)).string()) {
-    std::ofstream file(path_, std::ios::binary);
-    const std::int64_t counts[2] = {std::int64_t(mesh.points.size()), std::int64_t(mesh.tets.size())};
-    file.write("TETMESH1", 8);
-    write(file, counts, 2);
-    write(file, mesh.points.data(), mesh.points.size());
-    write(file, mesh.values.data(), mesh.values.size());
-    write(file, mesh.tets.data(), mesh.tets.size());
-    file.close();
-    if (!file) throw std::runtime_error(path_ + ": cannot be written");
-  }
-  ~TemporaryMesh() {
-    std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
-  }
-  TemporaryMesh(const TemporaryMesh &) = delete;
-  TemporaryMesh &operator=(const TemporaryMesh &) = delete;
-  const std::string &path() const { return path_; }
-
- private:
-  template <class T>
-  static void write(std::ofstream &file, const T *data, std::size_t count) {
-    file.write(reinterpret_cast<const char *>(data), std::streamsize(count * sizeof(T)));
-  }
-
-  std::string path_;
-};
 
 std::string output_of(const std::string &command) {
   std::FILE *const pipe = popen(command.c_str(), "r");
@@ -76,7 +42,7 @@ Mesh without_unused_points(const Mesh &mesh) {
 }  // namespace
 
 Quality ask_judge(const std::string &program, const Mesh &original, const Mesh &result) {
-  const TemporaryMesh before(original, "_original.tet"), after(without_unused_points(result), "_result.tet");
+  const MeshOnDisk before(original, "_original.tet"), after(without_unused_points(result), "_result.tet");
   const std::string said = output_of("'" + program + "' '" + before.path() + "' '" + after.path() + "'");
   try {
     const nlohmann::json json = nlohmann::json::parse(said);

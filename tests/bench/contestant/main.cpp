@@ -2,9 +2,10 @@
 // programs. Prints its wall and CPU seconds, which leave reading the mesh out.
 //
 // bench_contestant MESH peer|fast|accurate TARGET THREADS
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <exception>
+#include <stdexcept>
 
 #include "mesh_file.hpp"
 #include "run_peer.hpp"
@@ -12,10 +13,17 @@
 
 namespace {
 
+std::int32_t preset_of(const char *name) {
+  for (const std::int32_t preset : {TETLOD_PRESET_FAST, TETLOD_PRESET_ACCURATE}) {
+    if (std::strcmp(name, bench::preset_name(preset)) == 0) return preset;
+  }
+  throw std::runtime_error(std::string(name) + ": no contestant");
+}
+
 bench::Cost run(const bench::Mesh &mesh, const char *who, double target, std::int64_t threads) {
   if (std::strcmp(who, "peer") == 0) return bench::Peer(mesh).run(std::int64_t(target * double(mesh.tets.size()))).cost;
   bench::Parameters parameters;
-  parameters.preset = std::strcmp(who, "fast") == 0 ? TETLOD_PRESET_FAST : TETLOD_PRESET_ACCURATE;
+  parameters.preset = preset_of(who);
   parameters.target = target;
   parameters.threads = threads;
   return bench::run_tetlod(mesh, parameters).cost;

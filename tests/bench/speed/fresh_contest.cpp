@@ -9,7 +9,7 @@ namespace {
 double seconds_of(const char *who, const MeshOnDisk &mesh, double target, std::int64_t threads) {
   const std::string arguments =
       "'" + mesh.path() + "' " + who + " " + std::to_string(target) + " " + std::to_string(threads);
-  return run_rival("bench_contestant", arguments, "nothing").wall;
+  return run_rival("bench_contestant", arguments, "VTK").wall;
 }
 
 }  // namespace
@@ -22,7 +22,7 @@ FreshContest hold_fresh_contest(const std::string &set, const Mesh &mesh, double
   }
   std::vector<std::vector<double>> seconds(contest.runs.size());
   std::vector<double> of_peer;
-  const MeshOnDisk file(mesh);
+  const MeshOnDisk file(mesh, ".mesh");
   for (int round = 0; round < rounds; round++) {
     of_peer.push_back(seconds_of("peer", file, target, 1));
     for (std::size_t i = 0; i < contest.runs.size(); i++) {

@@ -100,8 +100,8 @@ std::string described(const Parameters &p) {
   return preset + ", rho " + fixed(p.rho, 3) + ", sigma " + fixed(p.sigma, 3);
 }
 
-std::string threads_of(const Parameters &p) {
-  return ", " + std::to_string(p.threads) + (p.threads == 1 ? " thread" : " threads");
+std::string counted(std::int64_t threads) {
+  return ", " + std::to_string(threads) + (threads == 1 ? " thread" : " threads");
 }
 
 std::string three(const Spread &speed) {
@@ -152,7 +152,7 @@ void print_speeds(std::FILE *to, const std::vector<Contest> &contests, const std
                "set", "rival", "CPU ms", "rival's", "times faster: CPU", "wall");
   for (const Contest &c : contests) {
     if (!c.peer) continue;
-    print_speed(to, {described(c.parameters) + threads_of(c.parameters), c.name, "VTK's edge collapse", "",
+    print_speed(to, {described(c.parameters) + counted(c.parameters.threads), c.name, "VTK's edge collapse", "",
                      c.tetlod.cpu, c.tetlod.wall, c.peer->cpu, c.peer->wall, c.cpu_speedup, c.wall_speedup});
   }
   for (const Duel &duel : duels) print_speed(to, duel);
@@ -163,9 +163,7 @@ void print_fresh_head(std::FILE *to, const std::vector<std::int64_t> &threads) {
   std::string columns, rule;
   for (const std::int32_t preset : {TETLOD_PRESET_FAST, TETLOD_PRESET_ACCURATE}) {
     for (const std::int64_t n : threads) {
-      Parameters p;
-      p.threads = n;
-      columns += std::string(" | ") + preset_name(preset) + threads_of(p) + " | times faster";
+      columns += std::string(" | ") + preset_name(preset) + counted(n) + " | times faster";
       rule += "---|---|";
     }
   }
