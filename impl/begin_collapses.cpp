@@ -1,5 +1,6 @@
 #include "begin_collapses.hpp"
 
+#include <algorithm>
 #include <optional>
 
 #include "renew_quadrics.hpp"
@@ -31,40 +32,69 @@ SolidMesh<m> mesh_of(const MeshView &original, const Boundary &boundary, const S
   return mesh;
 }
 
+/// By how much gradients differ within what the inner vertices stand for: interpolation loses the more.
+template <std::size_t m>
+double roughness(const SolidRemains<m> &solid) {
+  double sum = 0;
+  for (std::size_t v = 0; v < solid.points.size(); v++) {
+    if (solid.ranks[v] >= Rank::boundary) continue;  // those have squares of planes, too
+    const auto &a = solid.quadrics[v].a;
+    for (std::size_t k = 0; k < 3; k++) {
+      sum += a[entry_of(k, k)];
+      for (std::size_t i = 3; i < 3 + m; i++) sum -= a[entry_of(i, k)] * a[entry_of(i, k)] / a[entry_of(i, i)];
+    }
+  }
+  return sum;
+}
+
+/// What values are to a state of earlier ones: the squared error that they have there, and that of the collapses to
+/// the size, to it and in all, if they lose as much as the earlier values, or less, being smoother.
+struct NewValues {
+  double error, usual_there, usual;
+
+  /// The root of the whole is to be larger by no more than the part that is asked for. What collapses leave is less
+  /// than what they cost, by experience; the first ones nearly as much.
+  bool lose_too_much(double warm_start) const {
+    constexpr double left_of_cost = 0.75, left_of_first = 0.9;
+    const double allowed = ((1 + warm_start) * (1 + warm_start) - 1) * left_of_cost * usual;
+    return error != 0 && !(error - left_of_first * usual_there <= allowed);
+  }
+};
+
+/// The part of what is asked for that a state may lose: the nearer to the size, the less can be made good.
+double to_be_made_good(std::size_t of_state, std::int64_t tets) {
+  return std::min(double(of_state) / double(tets) - 1, 1.0);
+}
+
 /// The coarsest of the states that earlier values left that is fine enough for the size and for the new values.
 template <std::size_t m>
 std::optional<CollapseStart<m>> warm_start(const MeshView &original, const Boundary &boundary,
                                            const FieldsAsLengths<m> &fields, const SolidOptions &options,
                                            SolidHistory &history, Job &job) {
-  constexpr double finer = 1.5;      // than the size: the last collapses see the new values
-  constexpr double far_beyond = 16;  // what is allowed: a finer state will not do, either
+  constexpr double finer = 1.5;     // than the size: the last collapses see the new values
+  constexpr double far_beyond = 8;  // what is asked for: a finer state will not do, either
   const std::int64_t tets = std::max(options.tets, options.enough);
-  const double usual_cost = history.usual_cost(tets);
   const Array<SolidState<m>> &states = history.states<m>(job.memory);
   for (std::size_t i = states.size(); i-- > 0;) {
     const SolidState<m> &state = states[i];
     if (!state.progress.follows() || double(state.remains.tets.size()) < finer * double(tets)) continue;
     SolidRemains<m> remains(state.remains, job.memory);
     const double error = renew_quadrics(original, boundary, fields, state.progress.home, job, remains);
-    if (!inherits_too_much(error, options.warm_start, usual_cost)) {
+    const double of_earlier = roughness(state.remains), of_new = roughness(remains);
+    const double share = of_new < of_earlier ? of_new / of_earlier : 1;
+    const NewValues values{error, share * state.progress.cost, share * history.usual_cost(tets)};
+    const double asked = to_be_made_good(state.remains.tets.size(), tets) * options.warm_start;
+    if (!values.lose_too_much(asked)) {
       SolidMesh<m> solid(std::move(remains), job);
       SolidProgress progress(solid.points.size(), solid.tets.size(), job);
-      return CollapseStart<m>{std::move(solid), std::move(progress), false, error};
+      return CollapseStart<m>{std::move(solid), std::move(progress), false};
     }
-    if (inherits_too_much(error, options.warm_start, far_beyond * usual_cost)) break;
+    if (values.lose_too_much(far_beyond * asked)) break;
   }
   return std::nullopt;
 }
 
 }  // namespace
-
-/// The root of it all is to be larger by no more than the part that is asked for. What collapses leave is less than
-/// what they cost, by experience.
-bool inherits_too_much(double inherited, double warm_start, double cost) {
-  constexpr double left_of_cost = 0.75;
-  const double allowed = ((1 + warm_start) * (1 + warm_start) - 1) * left_of_cost * cost;
-  return inherited != 0 && !(inherited <= allowed);
-}
 
 template <std::size_t m>
 CollapseStart<m> begin_collapses(const MeshView &original, const Boundary &boundary, const FieldsAsLengths<m> &fields,

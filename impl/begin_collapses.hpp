@@ -10,12 +10,8 @@ template <std::size_t m>
 struct CollapseStart {
   SolidMesh<m> solid;
   SolidProgress progress;
-  bool keeps_states;     ///< they are on the way from the original with these values
-  double inherited = 0;  ///< the squared error that it begins with, for earlier values' sake
+  bool keeps_states;  ///< they are on the way from the original with these values
 };
-
-/// Whether the collapses that follow a warm start cost too little for what it begins with.
-bool inherits_too_much(double inherited, double warm_start, double cost);
 
 template <std::size_t m>
 CollapseStart<m> begin_collapses(const MeshView &original, const Boundary &boundary, const FieldsAsLengths<m> &fields,

@@ -64,7 +64,7 @@ class SolidDecimator {
       collapse_some(limit);
       keep_where(left_, job_, [&](std::size_t i) { return mesh_.has_vertex(left_[i]); });
       progress_.round++;
-      if (!deviation_ && count_ < progress_.next_closing && count_ > options_.tets)
+      if (gaps_are_due())
         close_gaps();
       else
         mesh_.tidy({rooms_.data(), rooms_.size()}, job_);
@@ -108,8 +108,8 @@ class SolidDecimator {
     Array<std::int32_t> items;
     SolidCollapse<m> collapse;
     EdgeCosts edges;
-    std::int64_t most = 0, gone = 0;         ///< tets
-    std::size_t within_limit = 0, made = 0;  ///< vertices, as far as is known, and collapses
+    std::int64_t most = 0, gone = 0;           ///< tets
+    std::size_t within_limit = 0, waited = 0;  ///< vertices, as far as is known
     double cost = 0;
   };
 
@@ -215,23 +215,36 @@ class SolidDecimator {
 
   void take_over(std::size_t items) {
     const std::int64_t before = count_;
-    std::size_t within_limit = 0, made = 0;
+    std::size_t within_limit = 0, waited = 0;
     for (Work &work : works_) {
       if (!work.items.empty())  // with fewer tets to lose, the block would have stopped before
         progress_.allow(double(before) - double(work.gone + 1) * double(items) / double(work.items.size()));
       count_ -= work.gone;
       progress_.cost += work.cost;
       within_limit += work.within_limit;
-      made += work.made;
+      waited += work.waited;
       work.items.clear();
       work.gone = 0;
-      work.within_limit = work.made = 0;
+      work.within_limit = work.waited = 0;
       work.cost = 0;
     }
-    progress_.most_waited = blocks_.count() > 1 && made * 8 < within_limit;
+    progress_.most_waited = waited * 8 > within_limit * 7;
   }
 
   // ---- States
+
+  /// Now and then, and once near the size, so that new values may begin there.
+  bool gaps_are_due() {
+    if (deviation_ || count_ <= options_.tets) return false;
+    const bool comes_near = !is_near_ && count_ < 2 * size() && may_be_warm(count_);
+    is_near_ |= comes_near;
+    return comes_near || count_ < progress_.next_closing;
+  }
+
+  /// Whether new values may begin with so many tets: half of the original's at most, for the memory's sake.
+  bool may_be_warm(std::int64_t tets) const {
+    return progress_.follows() && tets <= std::int64_t(mesh_.measures.tets / 2);
+  }
 
   /// What is left moves together, so that it is near in memory.
   void close_gaps() {
@@ -246,17 +259,18 @@ class SolidDecimator {
     blocks_ = SolidBlocks(left_.size(), job_.memory);
   }
 
-  /// Unless it is of this target alone, kept already, or would take memory that the run does not need without it. Where
-  /// new values may begin must not depend on the peak, which depends on the threads. While vertices are removed the way
-  /// is that to all smaller targets, too: such states take the place of others.
+  /// Unless it is of this target alone, where only new values may begin, kept already, or would take memory that the
+  /// run does not need without it. Where new values may begin must not depend on the peak, which depends on the
+  /// threads. While vertices are removed the way is that to all smaller targets, too: such states take the place of
+  /// others.
   void keep_state(SolidRemains<m> &remains) {
-    if (!states_ || progress_.largest_target < options_.tets) return;
+    if (!states_ || (progress_.largest_target < options_.tets && !progress_.follows())) return;
     const auto last_is_no_finer = [&] {
       return !states_->empty() && states_->back().remains.tets.size() <= remains.tets.size();
     };
     while (progress_.removes() && last_is_no_finer() && !states_->back().progress.removes()) states_->pop_back();
     if (last_is_no_finer()) return;
-    if (progress_.follows() ? remains.tets.size() > remains.measures.tets / 2 : takes_too_much(remains)) return;
+    if (progress_.follows() ? !may_be_warm(std::int64_t(remains.tets.size())) : takes_too_much(remains)) return;
     remains.give_spare_back();
     job_.poll(0);  // each of both copies large arrays
     kept_ += remains.bytes() + progress_.bytes();
@@ -281,7 +295,10 @@ class SolidDecimator {
     if (!is_known) costs_.find_cheapest(v, work.edges);
     if (!(cheapest(v).cost <= limit)) return false;
     work.within_limit++;
-    if (waits_itself || waits(cheapest(v).other)) return false;
+    if (waits_itself || waits(cheapest(v).other)) {
+      work.waited++;
+      return false;
+    }
     if (is_admissible(v, cheapest(v), work.collapse)) return true;
     if (is_known) costs_.find_costs(v, work.edges);
     return find_dearer(v, limit, work);
@@ -332,7 +349,6 @@ class SolidDecimator {
     work.gone += std::int64_t(collapse.edge.edge_tets.size());
     work.cost += cheapest(collapse.found_at).cost;
     progress_.moved[std::size_t(v)] = progress_.round;
-    work.made++;
     cheapest(v) = CheapestEdge();
     // What was not admissible around it may be so now.
     for (std::int32_t t : mesh_.tets_of.of(v))
@@ -351,6 +367,7 @@ class SolidDecimator {
   Array<SolidState<m>> *states_;
   std::size_t kept_ = 0, most_ = 0;  // bytes of those that came to them, and in all while they come; 0: to be found
   std::int64_t count_;               // of the tets that are left
+  bool is_near_ = false;             // whether they are less than twice the size
   SolidBlocks blocks_;
   Array<CollapseRoom> rooms_;  // of each block
   Array<Work> works_;
@@ -365,24 +382,15 @@ std::int64_t decimate_solid(const MeshView &original, const Boundary &boundary, 
                             Array<std::int32_t> &origin) {
   return with_fields(original.fields, [&](auto m) {
     const FieldsAsLengths<m> fields(original, box_of(surface.points).diagonal(), job);
-    for (;;) {
-      CollapseStart<m> start = begin_collapses<m>(original, boundary, fields, options, history, job);
-      const std::size_t saved = start.solid.measures.vertices - start.solid.points.size();
-      const bool may_warm = start.progress.follows();
-      const double inherited = start.inherited, tets = double(start.solid.tets.size());
-      SolidDecimator<m> decimator(original, surface, options, fields, std::move(start),
-                                  start.keeps_states ? &history.states<m>(job.memory) : nullptr, job);
-      decimator.run();
-      // What collapses from the original on would cost: what they leave is of second order.
-      const double whole = decimator.cost() / (1 - std::pow(double(decimator.count()) / tets, second_order));
-      if (inherits_too_much(inherited, options.warm_start, whole)) {
-        history.forget_earlier(job.memory);  // whose usual cost these values are far from
-        continue;
-      }
-      decimator.write(mesh, origin);
-      if (may_warm && !history.knows_usual_cost()) history.set_usual_cost(decimator.cost(), decimator.count());
-      return std::int64_t(saved);
-    }
+    CollapseStart<m> start = begin_collapses<m>(original, boundary, fields, options, history, job);
+    const std::size_t saved = start.solid.measures.vertices - start.solid.points.size();
+    const bool may_warm = start.progress.follows();
+    SolidDecimator<m> decimator(original, surface, options, fields, std::move(start),
+                                start.keeps_states ? &history.states<m>(job.memory) : nullptr, job);
+    decimator.run();
+    decimator.write(mesh, origin);
+    if (may_warm && !history.knows_usual_cost()) history.set_usual_cost(decimator.cost(), decimator.count());
+    return std::int64_t(saved);
   });
 }
 

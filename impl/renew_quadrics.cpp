@@ -1,5 +1,6 @@
 #include "renew_quadrics.hpp"
 
+#include <algorithm>
 #include <numeric>
 
 namespace tetlod {
@@ -57,11 +58,12 @@ class QuadricRenewal {
     }
   }
 
-  /// The squared distance from what goes through an original place.
-  void add_square(std::size_t v, const Place &normal, const Place &through, double weight) {
+  /// The squared distance from what goes through an original place, `square` of its normal, so many times.
+  void add_square(std::size_t v, const Triangular<3 + m> &square, const Place &normal, const Place &through,
+                  double weight) {
     const double off = dot<3 + m>(normal, minus(place(v), through));
     LocalQuadric<3 + m> &quadric = remains_.quadrics[v];
-    quadric.add_square(normal, weight);
+    for (std::size_t i = 0; i < square.size(); i++) quadric.a[i] += weight * square[i];
     quadric.g = along(quadric.g, weight * off, normal);
     error_[v] += weight * off * off;
   }
@@ -82,12 +84,17 @@ class QuadricRenewal {
     }
   }
 
+  /// Corners with the same home are as far from the tet's functions there.
   void add_tet(const Tet &tet, const std::size_t homes[4], std::size_t begin, std::size_t end) {
     std::array<Place, 4> corner;
     for (std::size_t k = 0; k < 4; k++) corner[k] = original_place(tet[k]);
-    for (const Place &normal : upright_normals<m>(corner))
-      for (std::size_t k = 0; k < 4; k++)
-        if (homes[k] - begin < end - begin) add_square(homes[k], normal, corner[k], 1);
+    for (const Place &normal : upright_normals<m>(corner)) {
+      const Triangular<3 + m> square = LocalQuadric<3 + m>::square_of(normal, 1);
+      for (std::size_t k = 0; k < 4; k++) {
+        if (!(homes[k] - begin < end - begin) || std::find(homes, homes + k, homes[k]) != homes + k) continue;
+        add_square(homes[k], square, normal, corner[k], double(std::count(homes + k, homes + 4, homes[k])));
+      }
+    }
   }
 
   void add_planes(std::size_t begin, std::size_t end) {
@@ -96,11 +103,12 @@ class QuadricRenewal {
       const Vec3 n = area_vector(p(0), p(1), p(2));
       const double length = glm::length(n);
       if (!(length > 0)) continue;
+      const Place normal{n.x / length, n.y / length, n.z / length};
+      const Triangular<3 + m> square = LocalQuadric<3 + m>::square_of(normal, 1);
       for (std::int32_t v : t) {
         const auto home = std::size_t(home_[std::size_t(v)]);
         if (home - begin < end - begin)
-          add_square(home, {n.x / length, n.y / length, n.z / length}, original_place(v),
-                     remains_.measures.weight_of_planes);
+          add_square(home, square, normal, original_place(v), remains_.measures.weight_of_planes);
       }
     }
   }

@@ -79,6 +79,7 @@ void SolidHistory::forget_earlier(Memory &memory) {
 }
 
 double SolidHistory::usual_cost(std::int64_t tets) const {
+  constexpr double second_order = 4.0 / 3;  // of linear interpolation: its squared error is the number of tets to -4/3
   return knows_usual_cost() ? usual_cost_ * std::pow(double(tets_of_cost_) / double(tets), second_order) : 0;
 }
 

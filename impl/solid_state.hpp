@@ -8,9 +8,6 @@
 
 namespace tetlod {
 
-/// How the squared error of linear interpolation falls with the number of tets: as its inverse to this power.
-constexpr double second_order = 4.0 / 3;
-
 /// No admissible edge of a vertex costs less, as far as was known in that round. At first, and where what its edges
 /// cost has changed since, it is to be looked for, and counts as cheaper than all.
 struct CheapestEdge {
