@@ -85,23 +85,41 @@ double rms_of(tetlod_context *context) {
   return error.rms;
 }
 
-// A front that moves on a million tets.
-void measure_warm_start(const std::string &preset) {
-  constexpr double warm_start = 0.25, step = 0.004;
-  bench::Mesh mesh = bench::make_front_mesh(1'000'000, 0.5);
+// change(mesh, step) gives the mesh its values of that step, in place: they are lent.
+template <class Change>
+void measure_warm_start(bench::Mesh mesh, const std::string &preset, const char *what, const Change &change) {
+  constexpr double warm_start = 0.25;
   const Context context = make_context(mesh), fresh = make_context(mesh);
   for (const Context *of : {&context, &fresh}) set_level(of->get(), preset, 0.1);
   check(tetlod_set_real(context.get(), TETLOD_OPT_WARM_START, warm_start), context.get());
+  double first = 0;
   for (int i = 0; i < 8; i++) {
-    const std::vector<double> moved = bench::make_front_mesh(1'000'000, 0.5 + i * step).values;
-    std::copy(moved.begin(), moved.end(), mesh.values.begin());  // in place: they are lent
+    change(mesh, i);
     const tetlod_run_report warm = run(context.get()), without = run(fresh.get());
+    if (i == 0) first = warm.seconds_total;
     std::printf(
-        "%-9s warm start, front at %.3f: %.2f s, %.2f s without: %.2f x, %lld collapses taken over, RMS %.2f x\n",
-        preset.c_str(), 0.5 + i * step, warm.seconds_total, without.seconds_total,
+        "%-9s warm start, %s, step %d: %.2f s, %.2f x the first run, %.2f x one without, %lld collapses taken over, "
+        "RMS %.2f x\n",
+        preset.c_str(), what, i, warm.seconds_total, warm.seconds_total / first,
         warm.seconds_total / without.seconds_total, static_cast<long long>(warm.reused_collapses),
         rms_of(context.get()) / rms_of(fresh.get()));
   }
+}
+
+void measure_warm_starts(const bench::Mesh &mesh, const std::string &preset) {
+  const std::vector<double> at_first = mesh.values;
+  const double range = bench::range_of(at_first);
+  const auto [low, high] = std::minmax_element(mesh.points.begin(), mesh.points.end());  // by their x
+  const double length = (*high)[0] - (*low)[0];
+  measure_warm_start(mesh, preset, "a wave grows by 0.2 % of the range", [&](bench::Mesh &now, int step) {
+    for (std::size_t v = 0; v < at_first.size(); v++)
+      now.values[v] = at_first[v] + 0.002 * step * range * std::sin(6 * now.points[v][0] / length);
+  });
+  const bench::Mesh front = bench::make_front_mesh(1'000'000, 0.5);
+  measure_warm_start(front, preset, "a front moves by 0.4 % of the box", [](bench::Mesh &now, int step) {
+    const std::vector<double> moved = bench::make_front_mesh(1'000'000, 0.5 + 0.004 * step).values;
+    std::copy(moved.begin(), moved.end(), now.values.begin());
+  });
 }
 
 // The coarsest first: its decimation is that of the others, carried on.
@@ -163,7 +181,7 @@ int main(int argc, char **argv) {
     for (int i = 2; i < argc || i == 2; i++) {
       const std::string preset = argc > 2 ? argv[i] : "paper";
       measure_steps(mesh, preset);
-      if (preset != "paper") measure_warm_start(preset);
+      if (preset != "paper") measure_warm_starts(mesh, preset);
       measure_levels(mesh, preset);
       measure_transfer(mesh, preset);
     }
