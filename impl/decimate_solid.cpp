@@ -275,6 +275,7 @@ class SolidDecimator {
     job_.poll(0);  // each of both copies large arrays
     kept_ += remains.bytes() + progress_.bytes();
     states_->push_back({SolidRemains<m>(remains, job_.memory), SolidProgress(progress_, job_.memory)});
+    if (progress_.largest_target < options_.tets) states_->back().progress.allow(-1);  // of the same values
   }
 
   /// Than the peak so far, now or later; where other sizes are likely to follow, than a quarter more.

@@ -115,6 +115,22 @@ TEST_F(WarmStart, BeginsWhereASlowFrontLeftTheSolid) {
   }
 }
 
+/// Where new values may begin other sizes of the same values may not.
+TEST_F(WarmStart, OtherSizesOfTheSameValuesHaveTheirOwnBytes) {
+  start_with_front(20, 0.6);
+  for (bool hasty : {false, true}) {
+    options.hasty = hasty;
+    SolidHistory history(host.memory);
+    history.begin(original.view(), false, hasty, true, host.job);
+    for (double ratio : {0.1, 0.03, 0.06, 0.2, 0.01, 0.05}) {
+      CoarseSolid next(host.memory), alone(host.memory);
+      ASSERT_TRUE(decimate(ratio, host, history, next)) << failure;
+      ASSERT_TRUE(decimate(ratio, host, alone)) << failure;
+      expect_same(next.mesh, alone.mesh);
+    }
+  }
+}
+
 /// What is much to a rough field's error is little to a smooth one's.
 TEST_F(WarmStart, BeginsAnewWhereTheValuesAreMuchSmoother) {
   std::mt19937 random(1);
