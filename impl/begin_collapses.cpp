@@ -74,6 +74,7 @@ std::optional<CollapseStart<m>> warm_start(const MeshView &original, const Bound
   constexpr double finer = 1.5;     // than the size: the last collapses see the new values
   constexpr double far_beyond = 8;  // what is asked for: a finer state will not do, either
   const std::int64_t tets = std::max(options.tets, options.enough);
+  const double usual_cost = history.usual_cost(tets);
   const Array<SolidState<m>> &states = history.states<m>(job.memory);
   for (std::size_t i = states.size(); i-- > 0;) {
     const SolidState<m> &state = states[i];
@@ -82,7 +83,7 @@ std::optional<CollapseStart<m>> warm_start(const MeshView &original, const Bound
     const double error = renew_quadrics(original, boundary, fields, state.progress.home, job, remains);
     const double of_earlier = roughness(state.remains), of_new = roughness(remains);
     const double share = of_new < of_earlier ? of_new / of_earlier : 1;
-    const NewValues values{error, share * state.progress.cost, share * history.usual_cost(tets)};
+    const NewValues values{error, share * state.progress.cost, share * usual_cost};
     const double asked = to_be_made_good(state.remains.tets.size(), tets) * options.warm_start;
     if (!values.lose_too_much(asked)) {
       SolidMesh<m> solid(std::move(remains), job);

@@ -233,18 +233,17 @@ class SolidDecimator {
 
   // ---- States
 
-  /// Now and then, and once near the size, so that new values may begin there.
-  bool gaps_are_due() {
+  /// Now and then, and when new values may begin near the size: as many tets as there are with gaps were left last
+  /// time.
+  bool gaps_are_due() const {
     if (deviation_ || count_ <= options_.tets) return false;
-    const bool comes_near = !is_near_ && count_ < 2 * size() && may_be_warm(count_);
-    is_near_ |= comes_near;
+    const std::int64_t near = std::min(2 * size(), most_for_new_values());
+    const bool comes_near = progress_.follows() && count_ <= near && std::int64_t(mesh_.tets.size()) > near;
     return comes_near || count_ < progress_.next_closing;
   }
 
-  /// Whether new values may begin with so many tets: half of the original's at most, for the memory's sake.
-  bool may_be_warm(std::int64_t tets) const {
-    return progress_.follows() && tets <= std::int64_t(mesh_.measures.tets / 2);
-  }
+  /// Tets that new values may begin with, for the memory's sake.
+  std::int64_t most_for_new_values() const { return std::int64_t(mesh_.measures.tets / 2); }
 
   /// What is left moves together, so that it is near in memory.
   void close_gaps() {
@@ -264,18 +263,19 @@ class SolidDecimator {
   /// threads. While vertices are removed the way is that to all smaller targets, too: such states take the place of
   /// others.
   void keep_state(SolidRemains<m> &remains) {
-    if (!states_ || (progress_.largest_target < options_.tets && !progress_.follows())) return;
+    const bool of_this_target = progress_.largest_target < options_.tets, follows = progress_.follows();
+    if (!states_ || (of_this_target && !follows)) return;
     const auto last_is_no_finer = [&] {
       return !states_->empty() && states_->back().remains.tets.size() <= remains.tets.size();
     };
     while (progress_.removes() && last_is_no_finer() && !states_->back().progress.removes()) states_->pop_back();
     if (last_is_no_finer()) return;
-    if (progress_.follows() ? !may_be_warm(std::int64_t(remains.tets.size())) : takes_too_much(remains)) return;
+    if (follows ? count_ > most_for_new_values() : takes_too_much(remains)) return;
     remains.give_spare_back();
     job_.poll(0);  // each of both copies large arrays
     kept_ += remains.bytes() + progress_.bytes();
     states_->push_back({SolidRemains<m>(remains, job_.memory), SolidProgress(progress_, job_.memory)});
-    if (progress_.largest_target < options_.tets) states_->back().progress.allow(-1);  // of the same values
+    if (of_this_target) states_->back().progress.allow(-1);  // no size of the same values begins there
   }
 
   /// Than the peak so far, now or later; where other sizes are likely to follow, than a quarter more.
@@ -368,7 +368,6 @@ class SolidDecimator {
   Array<SolidState<m>> *states_;
   std::size_t kept_ = 0, most_ = 0;  // bytes of those that came to them, and in all while they come; 0: to be found
   std::int64_t count_;               // of the tets that are left
-  bool is_near_ = false;             // whether they are less than twice the size
   SolidBlocks blocks_;
   Array<CollapseRoom> rooms_;  // of each block
   Array<Work> works_;
