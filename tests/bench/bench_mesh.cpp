@@ -87,12 +87,6 @@ struct Lattice {
 constexpr double kSteepness = 14.0;  // of the front, in units of the box's width
 constexpr double kPi = 3.14159265358979323846;
 
-double front_value(const Point &p, double time) {
-  const double front = 0.2 + 0.6 * time + 0.12 * std::sin(kPi * (p[1] + 0.5 * p[2])) - 0.1 * p[2] * p[2];
-  const double swell = 0.15 * std::cos(2.0 * kPi * p[1]) * std::sin(kPi * (p[0] + p[2]));
-  return std::tanh(kSteepness * (p[0] - front)) + swell;
-}
-
 void add_points(const Lattice &lattice, double time, Mesh &mesh) {
   for (std::int32_t k = 0; k <= lattice.n; k++) {
     for (std::int32_t j = 0; j <= lattice.n; j++) {
@@ -182,6 +176,12 @@ Mesh refined(const Mesh &mesh) {
     }
   }
   return fine;
+}
+
+double front_value(const Point &p, double time) {
+  const double front = 0.2 + 0.6 * time + 0.12 * std::sin(kPi * (p[1] + 0.5 * p[2])) - 0.1 * p[2] * p[2];
+  const double swell = 0.15 * std::cos(2.0 * kPi * p[1]) * std::sin(kPi * (p[0] + p[2]));
+  return std::tanh(kSteepness * (p[0] - front)) + swell;
 }
 
 Mesh make_front_mesh(std::int64_t tets, double time) {

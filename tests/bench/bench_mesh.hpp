@@ -33,8 +33,12 @@ std::optional<std::string> find_data(const std::string &name);
 // Each tet in eight around the middles of its edges, where the values are those between. The field is the same.
 Mesh refined(const Mesh &mesh);
 
-// A box of cubes, each cut into six tets around its diagonal, as near to `tets` as whole cubes allow. The field is a
-// bent front, steep across and smooth along, that travels through a slow swell as `time` goes from 0 to 1.
+// In the unit cube: a bent front, steep across and smooth along, that travels through a slow swell as `time` goes from
+// 0 to 1.
+double front_value(const Point &p, double time);
+
+// The unit cube of cubes, each cut into six tets around its diagonal, as near to `tets` as whole cubes allow, with that
+// front.
 Mesh make_front_mesh(std::int64_t tets, double time);
 
 }  // namespace bench
