@@ -43,12 +43,12 @@ std::pair<Point, Point> box_of(const std::vector<Point> &points) {
 
 }  // namespace
 
-Change growing_wave(double part) { return own_with_wave("a wave grows", part, 9, 5); }
+Change growing_wave(std::string name, double part) { return own_with_wave(std::move(name), part, 9, 5); }
 
 std::vector<Change> all_changes() {
   return {
-      own_with_wave("a wave grows slowly", 0.001, 9, 5),
-      own_with_wave("a wave grows", 0.03, 9, 5),
+      growing_wave("a wave grows slowly", 0.001),
+      growing_wave("a wave grows", 0.03),
       own_with_wave("a short wave grows", 0.01, 60, 50),
       {"the field fades",
        [](const Point &p, double first, int step) { return std::pow(0.6, step) * first + p[0] / 2; }},

@@ -17,7 +17,7 @@ struct Change {
 };
 
 // A wave on top of the mesh's own values, which grows by so large a part of their range in a step.
-Change growing_wave(double part);
+Change growing_wave(std::string name, double part);
 
 // Waves, fronts that move, get smoother or sharper, fields that fade, are raised to powers, noise that vanishes.
 std::vector<Change> all_changes();

@@ -66,11 +66,7 @@ void measure_warm_start(const Mesh &mesh, const std::string &preset, const Chang
   }
 }
 
-Change slow_wave() {
-  Change change = growing_wave(0.002);
-  change.name = "a wave grows by 0.2 % of the range";
-  return change;
-}
+Change slow_wave() { return growing_wave("a wave grows by 0.2 % of the range", 0.002); }
 
 // In the unit cube, whose diagonal is the root of 3.
 Change slow_front() {
