@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
@@ -149,6 +150,13 @@ std::optional<std::string> find_data(const std::string &name) {
     if (fs::exists(folder / name)) return (folder / name).string();
   }
   return std::nullopt;
+}
+
+std::optional<std::string> find_set(const std::string &name) {
+  if (fs::path(name).has_extension()) return name;
+  std::optional<std::string> path = find_data(name + ".vtu");
+  if (!path) std::printf("%s: skipped, there is no such set in TETLOD_DATA_DIR or in ../shared/data\n", name.c_str());
+  return path;
 }
 
 Mesh refined(const Mesh &mesh) {

@@ -30,6 +30,9 @@ Mesh read_mesh(const std::string &path);
 // `name` in the folder that the environment's TETLOD_DATA_DIR names, else in ../shared/data beside the checkout.
 std::optional<std::string> find_data(const std::string &name);
 
+// The file of a set by its name there, or that is named itself. Where there is none a line says that it is skipped.
+std::optional<std::string> find_set(const std::string &name);
+
 // Each tet in eight around the middles of its edges, where the values are those between. The field is the same.
 Mesh refined(const Mesh &mesh);
 

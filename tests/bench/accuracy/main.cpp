@@ -42,11 +42,6 @@ void add_options(CLI::App &app, Arguments &a) {
   app.add_option("--from", a.from, "measures nothing: table and plot of an earlier run's JSON")->type_name("FILE");
 }
 
-std::optional<std::string> path_of(const std::string &set) {
-  if (fs::path(set).has_extension()) return set;
-  return bench::find_data(set + ".vtu");
-}
-
 void write_markdown(const std::string &path, const std::vector<bench::Sweep> &sweeps) {
   std::FILE *const file = std::fopen(path.c_str(), "w");
   if (file == nullptr) throw std::runtime_error(path + ": cannot be written");
@@ -66,11 +61,8 @@ void write_all(const Arguments &a, const std::vector<bench::Sweep> &sweeps) {
 template <class Visit>
 void for_sets(const Arguments &a, const Visit &visit) {
   for (const std::string &set : a.sets) {
-    if (const std::optional<std::string> path = path_of(set)) {
+    if (const std::optional<std::string> path = bench::find_set(set))
       visit(fs::path(set).stem().string(), bench::read_mesh(*path));
-    } else {
-      std::printf("%s: skipped, there is no such set in TETLOD_DATA_DIR or in ../shared/data\n", set.c_str());
-    }
   }
 }
 

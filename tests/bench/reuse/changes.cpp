@@ -5,14 +5,10 @@
 #include <cstring>
 #include <utility>
 
+#include "box_tree.hpp"
+
 namespace bench {
 namespace {
-
-Change own_with_wave(std::string name, double part, double along_x, double along_y) {
-  return {std::move(name), [=](const Point &p, double first, int step) {
-            return first + part * step * std::sin(along_x * p[0] + along_y * p[1]);
-          }};
-}
 
 // Around the low corner.
 double front(const Point &p, double radius, double steepness) {
@@ -31,25 +27,19 @@ double noise(const Point &p) {
   return double(hash >> 11) * 0x1p-53;
 }
 
-std::pair<Point, Point> box_of(const std::vector<Point> &points) {
-  Point low = points.at(0), high = low;
-  for (const Point &p : points)
-    for (std::size_t k = 0; k < 3; k++) {
-      low[k] = std::min(low[k], p[k]);
-      high[k] = std::max(high[k], p[k]);
-    }
-  return {low, high};
-}
-
 }  // namespace
 
-Change growing_wave(std::string name, double part) { return own_with_wave(std::move(name), part, 9, 5); }
+Change growing_wave(std::string name, double part, double along_x, double along_y) {
+  return {std::move(name), [=](const Point &p, double first, int step) {
+            return first + part * step * std::sin(along_x * p[0] + along_y * p[1]);
+          }};
+}
 
 std::vector<Change> all_changes() {
   return {
       growing_wave("a wave grows slowly", 0.001),
       growing_wave("a wave grows", 0.03),
-      own_with_wave("a short wave grows", 0.01, 60, 50),
+      growing_wave("a short wave grows", 0.01, 60, 50),
       {"the field fades",
        [](const Point &p, double first, int step) { return std::pow(0.6, step) * first + p[0] / 2; }},
       {"powers", [](const Point &, double first, int step) { return std::pow(first + 0.05, 1 - 0.15 * step); }},
@@ -62,13 +52,13 @@ std::vector<Change> all_changes() {
   };
 }
 
-ChangingMesh::ChangingMesh(bench::Mesh mesh, Change change)
+ChangingMesh::ChangingMesh(Mesh mesh, Change change)
     : mesh_(std::move(mesh)), change_(std::move(change)), places_(mesh_.points), first_(mesh_.values) {
-  const auto [low, high] = box_of(mesh_.points);
-  const double diagonal = std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+  const Box box = box_of(mesh_.points);
+  const double diagonal = box.diagonal();
   const double least = *std::min_element(first_.begin(), first_.end()), range = range_of(first_);
   for (Point &p : places_)
-    for (std::size_t k = 0; k < 3; k++) p[k] = (p[k] - low[k]) / diagonal;
+    for (std::size_t k = 0; k < 3; k++) p[k] = (p[k] - box.low[k]) / diagonal;
   for (double &value : first_) value = (value - least) / range;
 }
 

@@ -16,8 +16,9 @@ struct Change {
   std::function<double(const Point &point, double first, int step)> value;
 };
 
-// A wave on top of the mesh's own values, which grows by so large a part of their range in a step.
-Change growing_wave(std::string name, double part);
+// A wave on top of the mesh's own values, which grows by so large a part of their range in a step, of so many radians
+// along a diagonal.
+Change growing_wave(std::string name, double part, double along_x = 9, double along_y = 5);
 
 // Waves, fronts that move, get smoother or sharper, fields that fade, are raised to powers, noise that vanishes.
 std::vector<Change> all_changes();
@@ -25,12 +26,12 @@ std::vector<Change> all_changes();
 // A mesh whose values take one step after another, in place: they may be lent meanwhile.
 class ChangingMesh {
  public:
-  ChangingMesh(bench::Mesh mesh, Change change);
+  ChangingMesh(Mesh mesh, Change change);
   void go_to(int step);
-  const bench::Mesh &mesh() const { return mesh_; }
+  const Mesh &mesh() const { return mesh_; }
 
  private:
-  bench::Mesh mesh_;
+  Mesh mesh_;
   Change change_;
   std::vector<Point> places_;
   std::vector<double> first_;

@@ -7,6 +7,8 @@
 
 namespace bench {
 
+constexpr double kLevel = 0.1;  // that most is measured at
+
 // The mesh must stay.
 Context context_of(const Mesh &mesh);
 

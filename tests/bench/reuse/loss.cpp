@@ -9,7 +9,6 @@
 namespace bench {
 namespace {
 
-constexpr double kLevel = 0.1;
 constexpr int kSteps = 4;  // after the first, which nothing is before
 
 struct Step {

@@ -39,9 +39,7 @@ bool has(const std::vector<std::string> &items, const char *item) {
 
 std::optional<bench::Mesh> mesh_of(const std::string &set) {
   if (set == "front") return bench::make_front_mesh(200'000, 0.5);
-  if (fs::path(set).has_extension()) return bench::read_mesh(set);
-  if (const std::optional<std::string> path = bench::find_data(set + ".vtu")) return bench::read_mesh(*path);
-  std::printf("%s: skipped, there is no such set in TETLOD_DATA_DIR or in ../shared/data\n", set.c_str());
+  if (const std::optional<std::string> path = bench::find_set(set)) return bench::read_mesh(*path);
   return std::nullopt;
 }
 

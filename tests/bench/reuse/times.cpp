@@ -15,8 +15,6 @@
 namespace bench {
 namespace {
 
-constexpr double kLevel = 0.1;
-
 // The same result by a context that has had no run; its seconds.
 double fresh_seconds(const Mesh &mesh, const std::string &preset, double part, const tetlod_run_report &reused) {
   const Context context = context_of(mesh);
