@@ -52,6 +52,11 @@ struct LocalQuadric {
   }
   /// weight times (normal . d)^2.
   void add_square(const Vector<n> &normal, double weight) { add(square_of(normal, weight)); }
+  /// weight times the squared distance from a plane; nothing, where its normal is none.
+  void add_plane(const Vec3 &normal, double weight) {
+    const double length = glm::length(normal);
+    if (length > 0) add_square({normal.x / length, normal.y / length, normal.z / length}, weight);
+  }
   static Triangular<n> square_of(const Vector<n> &normal, double weight) {
     Triangular<n> square;
     for (std::size_t i = 0; i < n; i++)

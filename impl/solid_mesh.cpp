@@ -1,5 +1,7 @@
 #include "solid_mesh.hpp"
 
+#include "weigh_planes.hpp"
+
 namespace tetlod {
 
 template <std::size_t m>
@@ -56,22 +58,14 @@ SolidRemains<m> SolidMesh<m>::take_remains(Span<const std::int32_t> number, Job 
   return remains;
 }
 
-/// What the distance from a plane of the boundary counts as beside the same difference of values. The fewer of the
-/// vertices are on the boundary, the less is gained by moving it; by experience.
-template <std::size_t m>
-double SolidMesh<m>::weight_of_planes() const {
-  constexpr double least = 20, by_share = 3.5, most = 2e4;
-  double boundary = 0;
-  for (std::size_t v = 0; v < points.size(); v++) boundary += on_boundary(std::int32_t(v));
-  return std::min(least + by_share * std::pow(double(points.size()) / boundary, 7), most);
-}
-
 template <std::size_t m>
 void SolidMesh<m>::find_quadrics(Job &job) {
-  const double weight = measures.weight_of_planes = weight_of_planes();
-  job.parallel.for_parts(points.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
-    add_tets(begin, end, job);
-    for (std::size_t v = begin; v < end; v++) add_planes(std::int32_t(v), weight);
+  job.parallel.for_parts(points.size(),
+                         [&](std::size_t, std::size_t begin, std::size_t end) { add_tets(begin, end, job); });
+  measures.weight_of_planes = weigh_planes(*this, job);
+  for_each(points.size(), job, [&](std::size_t v) {
+    for (std::int32_t t : triangles_of.of(std::int32_t(v)))
+      quadrics_[v].add_plane(normal(t), measures.weight_of_planes);
   });
 }
 
@@ -89,16 +83,6 @@ void SolidMesh<m>::add_tets(std::size_t begin, std::size_t end, Job &job) {
       for (std::int32_t v : tet)
         if (is_among(v)) quadrics_[std::size_t(v)].add(square);
     }
-  }
-}
-
-/// Of the boundary's triangles at v.
-template <std::size_t m>
-void SolidMesh<m>::add_planes(std::int32_t v, double weight) {
-  for (std::int32_t t : triangles_of.of(v)) {
-    const Vec3 n = normal(t);
-    const double length = glm::length(n);
-    if (length > 0) quadrics_[std::size_t(v)].add_square({n.x / length, n.y / length, n.z / length}, weight);
   }
 }
 

@@ -149,10 +149,8 @@ class SolidMesh : public SolidComplex {
   /// The entry of a quadric that counts the tets a vertex stands for.
   static constexpr std::size_t tets_of_vertex = entry_of(3, 3);
 
-  double weight_of_planes() const;
   void find_quadrics(Job &job);
   void add_tets(std::size_t begin, std::size_t end, Job &job);
-  void add_planes(std::int32_t v, double weight);
 
   Array<Vector<m>> lengths_;
   Array<Quadric> quadrics_;

@@ -1,0 +1,133 @@
+#include "weigh_planes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "collapse_rules.hpp"
+
+namespace tetlod {
+
+namespace {
+
+/// Of the vertices, those that stay longest, whose losses say nothing.
+constexpr double part_that_stays = 0.25;
+
+/// Squares that are lost where one vertex stands for its neighbours on the boundary, too.
+struct Losses {
+  double field = 0, planes = 0;
+};
+
+/// The value of a quadric a step from where it is kept, and has the value `here`.
+template <std::size_t n>
+double value_after(const LocalQuadric<n> &q, double here, const Vector<n> &step) {
+  return std::max(0.0, here + 2 * dot<n>(q.g, step) + dot<n>(q.times(step), step));
+}
+
+/// Others stay, and would take long.
+template <std::size_t m>
+bool has_usual_star(const SolidMesh<m> &mesh, std::int32_t v) {
+  return mesh.triangles_of.of(v).size() <= longest_ring;
+}
+
+template <std::size_t m>
+LocalQuadric<3> planes_of(const SolidMesh<m> &mesh, std::int32_t v) {
+  LocalQuadric<3> planes;
+  for (std::int32_t t : mesh.triangles_of.of(v)) planes.add_plane(mesh.normal(t), 1);
+  return planes;
+}
+
+/// What a vertex and its neighbours say, kept where it is.
+template <std::size_t m>
+class AllAround {
+ public:
+  AllAround(const SolidMesh<m> &mesh, std::int32_t v) : mesh_(mesh), place_(mesh.place(v)) {
+    add(v);
+    for (std::int32_t t : mesh.triangles_of.of(v)) {
+      const Triangle &f = mesh.triangles[std::size_t(t)];
+      const auto k = std::size_t(std::find(f.begin(), f.end(), v) - f.begin());
+      add(f[(k + 1) % 3]);  // each neighbour once, as the boundary is closed
+    }
+  }
+
+  /// With the values that suit the field best there, and, of planes, at the place that suits them best.
+  Losses losses() const {
+    Vector<3 + m> other_values{};
+    for (std::size_t i = 3; i < 3 + m; i++) other_values[i] = -field_.g[i] / field_.a[entry_of(i, i)];
+    return {value_after(field_, here_.field, other_values), value_after(planes_, here_.planes, step_to_planes())};
+  }
+
+ private:
+  void add(std::int32_t v) {
+    if (!has_usual_star(mesh_, v)) return;
+    const Vector<3 + m> way = minus(place_, mesh_.place(v));
+    const Vector<3> way_in_space{way[0], way[1], way[2]};
+    const LocalQuadric<3 + m> &field = mesh_.quadric(v);
+    const LocalQuadric<3> planes = planes_of(mesh_, v);
+    here_.field += dot<3 + m>(field.times(way), way);
+    here_.planes += dot<3>(planes.times(way_in_space), way_in_space);
+    field_.add(field.moved(way));
+    planes_.add(planes.moved(way_in_space));
+  }
+
+  /// A small pull keeps it near, along what is plane.
+  Vector<3> step_to_planes() const {
+    constexpr double pull = 1e-3;
+    Triangular<3> a = planes_.a;
+    for (std::size_t i = 0; i < 3; i++) a[entry_of(i, i)] += pull / 3 * trace<3>(planes_.a);
+    const Cholesky<3> solver(a, 0);
+    return solver.regular() ? solver.solve(along(Vector<3>{}, -1, planes_.g)) : Vector<3>{};
+  }
+
+  const SolidMesh<m> &mesh_;
+  Vector<3 + m> place_;
+  LocalQuadric<3 + m> field_;
+  LocalQuadric<3> planes_;
+  Losses here_;
+};
+
+template <std::size_t m>
+Array<std::int32_t> boundary_vertices(const SolidMesh<m> &mesh, Job &job) {
+  Array<std::int32_t> vertices(&job.memory);
+  for (std::size_t v = 0; v < mesh.points.size(); v++)
+    if (mesh.on_boundary(std::int32_t(v)) && has_usual_star(mesh, std::int32_t(v))) vertices.push_back(std::int32_t(v));
+  return vertices;
+}
+
+/// Of each field and plane loss apart, without the largest.
+Losses sum_of(const Array<Losses> &losses, Memory &memory) {
+  const auto sum = [&](double Losses::*part) {
+    Array<double> sorted(&memory);
+    for (const Losses &l : losses) sorted.push_back(l.*part);
+    std::sort(sorted.begin(), sorted.end());
+    return std::accumulate(sorted.begin(), sorted.end() - std::ptrdiff_t(part_that_stays * double(sorted.size())), 0.0);
+  };
+  return {sum(&Losses::field), sum(&Losses::planes)};
+}
+
+/// By experience, as tests/bench/ACCURACY.md tells. share: of the vertices, on the boundary.
+double weight_of(const Losses &losses, double share) {
+  constexpr double least = 10, by_losses = 5, power_of_losses = 0.75, power_of_share = -2.2, most = 1e5,
+                   most_losses = 1e3;
+  const double ratio = losses.field < most_losses * losses.planes ? losses.field / losses.planes : most_losses;
+  return std::min(least + by_losses * std::pow(ratio, power_of_losses) * std::pow(share, power_of_share), most);
+}
+
+}  // namespace
+
+template <std::size_t m>
+double weigh_planes(const SolidMesh<m> &mesh, Job &job) {
+  constexpr std::size_t enough = 4096;  // in a sample
+  const Array<std::int32_t> boundary = boundary_vertices(mesh, job);
+  const std::size_t step = boundary.size() / enough + 1;
+  Array<Losses> losses = array_of((boundary.size() + step - 1) / step, Losses(), job);
+  for_each(losses.size(), job, [&](std::size_t i) { losses[i] = AllAround<m>(mesh, boundary[i * step]).losses(); });
+  return weight_of(sum_of(losses, job.memory), double(boundary.size()) / double(mesh.points.size()));
+}
+
+template double weigh_planes(const SolidMesh<1> &, Job &);
+template double weigh_planes(const SolidMesh<2> &, Job &);
+template double weigh_planes(const SolidMesh<3> &, Job &);
+template double weigh_planes(const SolidMesh<4> &, Job &);
+
+}  // namespace tetlod

@@ -1,0 +1,63 @@
+#include <cmath>
+
+#include "decimate_solid_fixture.hpp"
+#include "weigh_planes.hpp"
+
+namespace tetlod::test {
+namespace {
+
+class WeighPlanes : public DecimateSolid {
+ protected:
+  double weight_of(const Mesh &mesh) {
+    start_with(mesh);
+    const FieldsAsLengths<1> fields(original.view(), box_of(original.view().points).diagonal(), host.job);
+    const SolidMesh<1> solid(put_in_order(original.view(), boundary, host.job), original.view().values<1>(),
+                             fields.scales, host.job);
+    return solid.measures.weight_of_planes;
+  }
+
+  /// Walls that are plane, or uneven by `height`.
+  double weight_of_cube(int n, double height, const Field &field) {
+    Mesh mesh = kuhn_cube(n);
+    set_scalars(mesh, field);
+    transform(mesh, [height](const Vec3 &p) {
+      return p + height * Vec3(std::sin(7 * p.y), std::sin(5 * p.z), std::sin(6 * p.x));
+    });
+    return weight_of(mesh);
+  }
+};
+
+TEST_F(WeighPlanes, HoldsPlaneWalls) {
+  const double plane = weight_of_cube(10, 0, waves), uneven = weight_of_cube(10, 0.05, waves),
+               more_uneven = weight_of_cube(10, 0.1, waves);
+  EXPECT_GT(plane, 1.5 * uneven);
+  EXPECT_GT(uneven, 1.5 * more_uneven);
+}
+
+TEST_F(WeighPlanes, HoldsUnevenWallsLessTheLessTheFieldChanges) {
+  const auto weaker = [](const Vec3 &p) { return p.x + 0.01 * waves(p); };
+  EXPECT_GT(weight_of_cube(10, 0.1, waves), 3 * weight_of_cube(10, 0.1, weaker));
+  EXPECT_EQ(weight_of_cube(10, 0, waves), weight_of_cube(10, 0, weaker)) << "plane walls cost nothing to hold";
+}
+
+/// The field and the boundary get smoother alike.
+TEST_F(WeighPlanes, DependsLittleOnTheResolution) {
+  const auto per_share = [&](int n) {
+    const double inside = std::pow((n - 1.0) / (n + 1.0), 3);
+    return weight_of_cube(n, 0.1, waves) * std::pow(1 - inside, 2.2);
+  };
+  EXPECT_NEAR(per_share(24) / per_share(12), 1, 0.3);
+}
+
+TEST_F(WeighPlanes, DependsOnNeitherUnitNorPlace) {
+  Mesh mesh = kuhn_cube(8);
+  transform(mesh, [](const Vec3 &p) { return p + 0.1 * Vec3(std::sin(7 * p.y), 0, std::sin(6 * p.x)); });
+  set_scalars(mesh, waves);
+  const double weight = weight_of(mesh);
+  transform(mesh, [](const Vec3 &p) { return 1024.0 * Vec3(p.y, p.z, p.x); });
+  set_scalars(mesh, [](const Vec3 &p) { return 7 + 3 * waves(Vec3(p.z, p.x, p.y) / 1024.0); });
+  EXPECT_NEAR(weight_of(mesh) / weight, 1, 0.02);
+}
+
+}  // namespace
+}  // namespace tetlod::test
