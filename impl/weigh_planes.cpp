@@ -18,11 +18,22 @@ struct Losses {
   double field = 0, planes = 0;
 };
 
-/// The value of a quadric a step from where it is kept, and has the value `here`.
+/// Quadrics of several vertices, each nothing where its vertex is, kept about one place.
 template <std::size_t n>
-double value_after(const LocalQuadric<n> &q, double here, const Vector<n> &step) {
-  return std::max(0.0, here + 2 * dot<n>(q.g, step) + dot<n>(q.times(step), step));
-}
+struct QuadricsAround {
+  LocalQuadric<n> sum;
+  double here = 0;
+
+  /// way: from the vertex of `quadric` to the place.
+  void add(const LocalQuadric<n> &quadric, const Vector<n> &way) {
+    const LocalQuadric<n> moved = quadric.moved(way);
+    here += dot<n>(moved.g, way);
+    sum.add(moved);
+  }
+  double after(const Vector<n> &step) const {
+    return std::max(0.0, here + 2 * dot<n>(sum.g, step) + dot<n>(sum.times(step), step));
+  }
+};
 
 /// Others stay, and would take long.
 template <std::size_t m>
@@ -53,37 +64,31 @@ class AllAround {
   /// With the values that suit the field best there, and, of planes, at the place that suits them best.
   Losses losses() const {
     Vector<3 + m> other_values{};
-    for (std::size_t i = 3; i < 3 + m; i++) other_values[i] = -field_.g[i] / field_.a[entry_of(i, i)];
-    return {value_after(field_, here_.field, other_values), value_after(planes_, here_.planes, step_to_planes())};
+    for (std::size_t i = 3; i < 3 + m; i++) other_values[i] = -field_.sum.g[i] / field_.sum.a[entry_of(i, i)];
+    return {field_.after(other_values), planes_.after(step_to_planes())};
   }
 
  private:
   void add(std::int32_t v) {
     if (!has_usual_star(mesh_, v)) return;
     const Vector<3 + m> way = minus(place_, mesh_.place(v));
-    const Vector<3> way_in_space{way[0], way[1], way[2]};
-    const LocalQuadric<3 + m> &field = mesh_.quadric(v);
-    const LocalQuadric<3> planes = planes_of(mesh_, v);
-    here_.field += dot<3 + m>(field.times(way), way);
-    here_.planes += dot<3>(planes.times(way_in_space), way_in_space);
-    field_.add(field.moved(way));
-    planes_.add(planes.moved(way_in_space));
+    field_.add(mesh_.quadric(v), way);
+    planes_.add(planes_of(mesh_, v), {way[0], way[1], way[2]});
   }
 
   /// A small pull keeps it near, along what is plane.
   Vector<3> step_to_planes() const {
     constexpr double pull = 1e-3;
-    Triangular<3> a = planes_.a;
-    for (std::size_t i = 0; i < 3; i++) a[entry_of(i, i)] += pull / 3 * trace<3>(planes_.a);
+    Triangular<3> a = planes_.sum.a;
+    for (std::size_t i = 0; i < 3; i++) a[entry_of(i, i)] += pull / 3 * trace<3>(planes_.sum.a);
     const Cholesky<3> solver(a, 0);
-    return solver.regular() ? solver.solve(along(Vector<3>{}, -1, planes_.g)) : Vector<3>{};
+    return solver.regular() ? solver.solve(along(Vector<3>{}, -1, planes_.sum.g)) : Vector<3>{};
   }
 
   const SolidMesh<m> &mesh_;
   Vector<3 + m> place_;
-  LocalQuadric<3 + m> field_;
-  LocalQuadric<3> planes_;
-  Losses here_;
+  QuadricsAround<3 + m> field_;
+  QuadricsAround<3> planes_;
 };
 
 template <std::size_t m>
