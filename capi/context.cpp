@@ -1,6 +1,8 @@
 // Versions, texts, and the life of a context.
 #include "context.hpp"
 
+#include <tbb/version.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <cstring>

@@ -4,21 +4,23 @@
 #include <thread>
 #include <utility>
 
+#include "arena.hpp"
+
 namespace tetlod {
 
 Beside::Beside(Job &job, std::function<void()> body) : job_(job), body_(std::move(body)) {
   over_.store(false, std::memory_order_release);
   taken_.store(false, std::memory_order_release);
-  tbb::task_arena *const arena = job_.parallel.arena();
+  Arena *const arena = job_.parallel.arena();
   if (!arena) return;
   group_.emplace();
-  arena->execute([this] { group_->run([this] { take(); }); });
+  arena->tasks.execute([this] { group_->run([this] { take(); }); });
 }
 
 Beside::~Beside() {
   if (!group_) return;
   group_->cancel();
-  job_.parallel.arena()->execute([this] { group_->wait(); });
+  job_.parallel.arena()->tasks.execute([this] { group_->wait(); });
 }
 
 void Beside::finish() {

@@ -1,52 +1,36 @@
 // Parallel loops over blocks of fixed size: the same partial results in the same order for any number of threads.
 #pragma once
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-#include <tbb/task_group.h>
-
 #include <algorithm>
-#include <atomic>
 #include <cstddef>
 #include <functional>
 #include <memory>
 
 namespace tetlod {
 
+/// oneTBB's threads. arena.hpp says what it is, for the few that hand it tasks: oneTBB's headers take long to compile.
+struct Arena;
+
 /// One arena per context; with one thread nothing of oneTBB is touched.
 class Parallel {
  public:
-  explicit Parallel(int threads = 1) : threads_(threads) {
-    if (threads > 1) arena_ = std::make_unique<tbb::task_arena>(threads);
-  }
+  explicit Parallel(int threads = 1);
+  ~Parallel();
+  Parallel(Parallel &&) noexcept;
+  Parallel &operator=(Parallel &&) noexcept;
+
   int threads() const noexcept { return threads_; }
-  tbb::task_arena *arena() const noexcept { return arena_.get(); }  ///< null with one thread
+  Arena *arena() const noexcept { return arena_.get(); }  ///< null with one thread
 
   /// Whether what the calling thread does is of no use any more, because something that it is part of failed.
-  bool is_cancelled() const { return arena_ && tbb::is_current_task_group_canceling(); }
+  bool is_cancelled() const;
 
   /// body(begin, end) for consecutive blocks of `block` indices that cover [0, count), begun in order. The blocks do
   /// not depend on the number of threads, so a sum per block, added up in block order, is deterministic.
   template <class Body>
   void for_blocks(std::size_t count, std::size_t block, const Body &body) const {
-    const std::size_t blocks = (count + block - 1) / block;
     const auto run = [&](std::size_t b) { body(b * block, std::min(count, (b + 1) * block)); };
-    if (!arena_ || blocks < 2) {
-      for (std::size_t b = 0; b < blocks; b++) run(b);
-      return;
-    }
-    // oneTBB's fork and join order everything; these say so in terms that a race detector sees, too.
-    std::atomic<std::size_t> next, done{0};
-    next.store(0, std::memory_order_release);
-    arena_->execute([&] {
-      tbb::parallel_for(0, threads_, [&](int) {
-        for (std::size_t b; (b = next.fetch_add(1, std::memory_order_acq_rel)) < blocks;) {
-          if (is_cancelled()) break;
-          run(b);
-        }
-        done.fetch_add(1, std::memory_order_release);
-      });
-    });
-    static_cast<void>(done.load(std::memory_order_acquire));
+    for_all((count + block - 1) / block,
+            {&run, [](const void *it, std::size_t b) { (*static_cast<decltype(&run)>(it))(b); }});
   }
 
   /// All of these steps, of which none needs another.
@@ -65,8 +49,15 @@ class Parallel {
   }
 
  private:
+  /// A function of a block's number, of whatever type.
+  struct OfBlock {
+    const void *body;
+    void (*call)(const void *body, std::size_t block);
+  };
+  void for_all(std::size_t blocks, OfBlock run) const;
+
   int threads_;
-  std::unique_ptr<tbb::task_arena> arena_;
+  std::unique_ptr<Arena> arena_;
 };
 
 }  // namespace tetlod
