@@ -81,6 +81,7 @@ void set_real(Options &options, const Option &option, double value) {
   const bool inside = value >= option.least && value <= option.most;  // NaN is not
   if (!inside) fail_bounds(option, number(value));
   options.*option.real = value;
+  if (option.number == TETLOD_OPT_TARGET_RATIO) options.usual_ratio = false;
 }
 
 void set_integer(Options &options, const Option &option, std::int64_t value) {
@@ -111,6 +112,7 @@ void set_as_published(Options &options) {
     if (option.real) options.*option.real = paper.*option.real;
     if (option.integer) options.*option.integer = paper.*option.integer;
   }
+  options.usual_ratio = false;
 }
 
 constexpr double usual_ratio = 0.1;
@@ -120,7 +122,9 @@ void set_preset(Options &options, std::int32_t preset) {
   if (preset != TETLOD_PRESET_FAST && preset != TETLOD_PRESET_ACCURATE)
     fail(Status::option, "there is no preset %d", preset);
   options.effort = preset == TETLOD_PRESET_FAST ? effort_fast : effort_accurate;
-  if (options.target_ratio <= 0) options.target_ratio = usual_ratio;
+  if (options.target_ratio > 0) return;
+  options.target_ratio = usual_ratio;
+  options.usual_ratio = true;
 }
 
 }  // namespace

@@ -7,8 +7,7 @@
  *
  *     tetlod_context *lod = NULL;
  *     tetlod_create(NULL, &lod);
- *     tetlod_set_rho(lod, 0.01);
- *     tetlod_set_sigma(lod, 0.1);
+ *     tetlod_set_real(lod, TETLOD_OPT_TARGET_RATIO, 0.1);
  *     tetlod_submit_points(lod, &points);              // borrowed, not copied
  *     tetlod_submit_tets(lod, &tets, 0);
  *     tetlod_submit_scalars(lod, "density", &values);
@@ -277,7 +276,7 @@ TETLOD_API tetlod_status tetlod_set_min_distance(tetlod_context *context, double
 enum {
   TETLOD_PRESET_PAPER = 0, /* as published, sized by rho and sigma: target-ratio, max-error and max-deviation 0, lambda
                               0.1, min-distance 0.01, leaves of 200 triangles and 500 tets. The default */
-  TETLOD_PRESET_FAST = 1,  /* effort fast, and target-ratio 0.1 where it is 0 */
+  TETLOD_PRESET_FAST = 1,  /* effort fast, and target-ratio 0.1 where it is 0; beside max-error that has no meaning */
   TETLOD_PRESET_ACCURATE = 2 /* effort accurate, likewise */
 };
 /* Sets every option that the preset governs. TETLOD_ERR_OPTION. */

@@ -25,7 +25,8 @@ constexpr std::int64_t policy_error = 0, policy_repair = 1;
 constexpr std::int64_t effort_fast = 1, effort_accurate = 2;
 
 struct Options {
-  double target_ratio = 0;  ///< tets kept, of the original's; 0: the paper's method, sized by rho and sigma
+  double target_ratio = 0;   ///< tets kept, of the original's; 0: the paper's method, sized by rho and sigma
+  bool usual_ratio = false;  ///< that is a preset's: of no meaning beside a bound of the error
   std::int64_t effort = effort_accurate;  ///< of a run with a target
   double max_error = 0;                   ///< bound of the error at the original vertices, over the range; 0: none
   double max_deviation = 0;               ///< of the boundary, over the diagonal; 0: no limit

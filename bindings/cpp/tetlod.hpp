@@ -1,7 +1,7 @@
 // tetlod from C++17: the C ABI of tetlod.h with an owner, views and exceptions. Header only; link libtetlod.
 //
 //     tetlod::Context lod;
-//     lod.set_rho(0.01);
+//     lod.set_real(TETLOD_OPT_TARGET_RATIO, 0.1);
 //     lod.submit_points({xyz.data(), n, 3});           // borrowed, not copied
 //     lod.submit_tets({corners.data(), m, 4}, 0);
 //     lod.submit_scalars("density", {density.data(), n});

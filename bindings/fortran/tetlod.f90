@@ -4,7 +4,7 @@
 !     use tetlod
 !     type(tetlod_context) :: lod
 !     call lod%create()
-!     call lod%set_rho(0.01d0); call lod%set_sigma(0.1d0)
+!     call lod%set_real(TETLOD_OPT_TARGET_RATIO, 0.1)
 !     call lod%submit_points(xyz); call lod%submit_tets(tets); call lod%submit_scalars("density", rho)
 !     call lod%run(stat=ierr, errmsg=message)
 !     call lod%fetch_points(xyz_small); call lod%fetch_tets(tets_small); call lod%fetch_scalars(rho_small)

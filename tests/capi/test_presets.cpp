@@ -1,0 +1,66 @@
+// What a preset says, beside what is said otherwise.
+#include <cmath>
+
+#include "fixtures.hpp"
+
+namespace tetlod_test {
+namespace {
+
+class Presets : public testing::Test {
+ protected:
+  Cube cube{10};
+
+  void SetUp() override {
+    for (std::size_t v = 0; v < cube.values.size(); v++)
+      cube.values[v] = std::sin(6 * cube.xyz[3 * v]) * std::cos(5 * cube.xyz[3 * v + 1]);
+  }
+  /// Of a run in a context of its own.
+  template <class Settings>
+  tetlod_run_report report_with(const Settings &settings) const {
+    const Context context = make_context();
+    submit(context.get(), cube);
+    settings(context.get());
+    EXPECT_EQ(tetlod_run(context.get()), TETLOD_OK) << message_of(context.get());
+    tetlod_run_report report{};
+    report.struct_size = sizeof report;
+    EXPECT_EQ(tetlod_fetch_report(context.get(), &report), TETLOD_OK);
+    return report;
+  }
+};
+
+TEST_F(Presets, KeepATenthWhereNothingElseIsSaid) {
+  const auto report = report_with([](tetlod_context *of) { tetlod_set_preset(of, TETLOD_PRESET_FAST); });
+  EXPECT_NEAR(double(report.tets_out) / double(report.tets_in), 0.1, 0.003);
+}
+
+TEST_F(Presets, LeaveTheSizeToABoundWhicheverIsSetFirst) {
+  const auto preset = [](tetlod_context *of) { tetlod_set_preset(of, TETLOD_PRESET_FAST); };
+  const auto bound = [](tetlod_context *of) { tetlod_set_real(of, TETLOD_OPT_MAX_ERROR, 0.1); };
+  const auto alone = report_with([&](tetlod_context *of) {
+    tetlod_set_int(of, TETLOD_OPT_EFFORT, TETLOD_EFFORT_FAST);
+    bound(of);
+  });
+  const auto first = report_with([&](tetlod_context *of) { preset(of), bound(of); });
+  const auto last = report_with([&](tetlod_context *of) { bound(of), preset(of); });
+  EXPECT_EQ(first.hash, alone.hash);
+  EXPECT_EQ(last.hash, alone.hash);
+  const auto without_bound = report_with(preset);
+  const auto no_more = report_with([&](tetlod_context *of) {
+    preset(of), bound(of);
+    tetlod_set_real(of, TETLOD_OPT_MAX_ERROR, 0);
+  });
+  EXPECT_EQ(no_more.hash, without_bound.hash);
+}
+
+TEST_F(Presets, LeaveARatioAsItIs) {
+  const auto report = report_with([](tetlod_context *of) {
+    tetlod_set_preset(of, TETLOD_PRESET_FAST);
+    tetlod_set_real(of, TETLOD_OPT_TARGET_RATIO, 0.3);
+    tetlod_set_preset(of, TETLOD_PRESET_ACCURATE);
+    tetlod_set_real(of, TETLOD_OPT_MAX_ERROR, 0.9);
+  });
+  EXPECT_NEAR(double(report.tets_out) / double(report.tets_in), 0.3, 0.009);
+}
+
+}  // namespace
+}  // namespace tetlod_test
