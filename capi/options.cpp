@@ -90,6 +90,10 @@ void set_integer(Options &options, const Option &option, std::int64_t value) {
   options.*option.integer = value;
 }
 
+double real_of(const Options &options, const Option &option) {
+  return option.number == TETLOD_OPT_TARGET_RATIO ? options.asked_ratio() : options.*option.real;
+}
+
 double default_of(const Option &option) {
   const Options defaults;
   return option.real ? defaults.*option.real : double(defaults.*option.integer);
@@ -145,7 +149,7 @@ tetlod_status tetlod_set_int(tetlod_context *handle, int32_t option, int64_t val
 tetlod_status tetlod_get_real(const tetlod_context *handle, int32_t option, double *out) {
   return entry(handle, [&](const tetlod_context &context) {
     require_pointer(out, "out");
-    *out = context.options.*require_real(option).real;
+    *out = real_of(context.options, require_real(option));
   });
 }
 

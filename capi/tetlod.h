@@ -276,7 +276,7 @@ TETLOD_API tetlod_status tetlod_set_min_distance(tetlod_context *context, double
 enum {
   TETLOD_PRESET_PAPER = 0, /* as published, sized by rho and sigma: target-ratio, max-error and max-deviation 0, lambda
                               0.1, min-distance 0.01, leaves of 200 triangles and 500 tets. The default */
-  TETLOD_PRESET_FAST = 1,  /* effort fast, and target-ratio 0.1 where it is 0; beside max-error that has no meaning */
+  TETLOD_PRESET_FAST = 1,  /* effort fast, and target-ratio 0.1 where it is 0, as long as there is no max-error */
   TETLOD_PRESET_ACCURATE = 2 /* effort accurate, likewise */
 };
 /* Sets every option that the preset governs. TETLOD_ERR_OPTION. */

@@ -14,13 +14,8 @@ inline bool as_published(const Options &options) { return options.target_ratio <
 /// A bound without a size begins with few tets.
 constexpr double first_ratio = 0.05;
 
-/// The size that is asked for; 0: a bound alone decides.
-inline double asked_ratio(const Options &options) {
-  return options.usual_ratio && options.max_error > 0 ? 0 : options.target_ratio;
-}
-
 inline double ratio_of(const Options &options) {
-  const double asked = asked_ratio(options);
+  const double asked = options.asked_ratio();
   return asked > 0 ? asked : first_ratio;
 }
 
@@ -33,7 +28,7 @@ constexpr double small_mesh = 1e5;
 /// accuracy.
 inline bool samples_sooner(const Options &options, const Report &report) {
   constexpr double soon_made = 9000, little = 0.03, most = 0.045, thin = 0.125, stretched = 0.004;
-  const double tets = double(report.tets_in), ratio = asked_ratio(options);
+  const double tets = double(report.tets_in), ratio = options.asked_ratio();
   return tets >= small_mesh && report.least_change >= stretched &&
          double(report.boundary_triangles_in) <= thin * tets && ratio > 0 &&
          ratio <= std::clamp(soon_made / tets, little, most);
@@ -133,7 +128,7 @@ inline Budget budget_for_bound(double max_error, double diagonal, const Report &
 }
 
 inline Budget first_budget(const Options &options, double diagonal, const Report &report) {
-  const double asked = asked_ratio(options);
+  const double asked = options.asked_ratio();
   return asked > 0 ? budget_of(asked, report) : budget_for_bound(options.max_error, diagonal, report);
 }
 

@@ -50,6 +50,9 @@ struct Options {
   std::int64_t on_overlap = policy_repair;     ///< keep the tets: inside they do no harm
   std::int64_t on_unused = policy_repair;      ///< ignore the points
   std::int64_t on_nonfinite = policy_error;  ///< repair: ignore points without a finite value together with their tets
+
+  /// 0: a bound alone decides, or rho and sigma.
+  double asked_ratio() const { return usual_ratio && max_error > 0 ? 0 : target_ratio; }
 };
 
 /// What a point's flags ask for: the vertex survives, with its place and value; edges and triangles of the boundary

@@ -69,7 +69,8 @@ static void published_parameters(FILE *to, const tetlod_context *context) {
   real_row(to, "minimum distance", 100.0 * distance, "% of diagonal");
 }
 
-static void parameters(FILE *to, const tetlod_context *context) {
+/* Returns whether rho and sigma have no meaning. */
+static int parameters(FILE *to, const tetlod_context *context) {
   double ratio = 0, bound = 0;
   tetlod_get_real(context, TETLOD_OPT_TARGET_RATIO, &ratio);
   tetlod_get_real(context, TETLOD_OPT_MAX_ERROR, &bound);
@@ -78,6 +79,7 @@ static void parameters(FILE *to, const tetlod_context *context) {
     target_parameters(to, context, ratio, bound);
   else
     published_parameters(to, context);
+  return ratio > 0 || bound > 0;
 }
 
 static void repairs(FILE *to, const tetlod_run_report *run) {
@@ -101,6 +103,7 @@ static void counts(FILE *to, const tetlod_run_report *run) {
   count_row(to, "  removed: outside", run->samples_outside);
   count_row(to, "  removed: too near", run->samples_too_near);
   count_row(to, "boundary vertices", run->boundary_points_out);
+  count_row(to, "inserted vertices", run->inserted_points);
   share_row(to, "Steiner points", run->steiner_points, run->points_out, "final");
   share_row(to, "final", run->points_out, run->points_in, "original");
 }
@@ -117,7 +120,8 @@ static void optional_seconds(FILE *to, const char *text, double seconds, double 
   *total += seconds;
 }
 
-static void seconds(FILE *to, const tetlod_run_report *run, const table2_seconds *around) {
+/* The paper's names, but for a run that collapsed the edges of the solid. */
+static void seconds(FILE *to, const tetlod_run_report *run, const table2_seconds *around, int collapsed) {
   double stages = run->seconds_prepare + run->seconds_boundary + run->seconds_decimate + run->seconds_sample +
                   run->seconds_cull + run->seconds_remesh + run->seconds_values;
   double total = run->seconds_total;
@@ -126,11 +130,11 @@ static void seconds(FILE *to, const tetlod_run_report *run, const table2_seconds
   optional_seconds(to, "solving", around->solving, &total);
   real_row(to, "preparing", run->seconds_prepare, "");
   real_row(to, "extracting boundary", run->seconds_boundary, "");
-  real_row(to, "simplifying boundary", run->seconds_decimate, "");
+  real_row(to, collapsed ? "collapsing edges" : "simplifying boundary", run->seconds_decimate, "");
   real_row(to, "sampling points", run->seconds_sample, "");
   real_row(to, "removing samples", run->seconds_cull, "");
   real_row(to, "CDT", run->seconds_remesh, "");
-  real_row(to, "Steiner scalar field", run->seconds_values, "");
+  real_row(to, collapsed ? "following the field" : "Steiner scalar field", run->seconds_values, "");
   real_row(to, "other", run->seconds_total - stages, "");
   optional_seconds(to, "writing mesh", around->writing, &total);
   real_row(to, "total (real)", total, "");
@@ -152,10 +156,10 @@ tetlod_status table2_print(FILE *to, const tetlod_context *context, const tetlod
   tetlod_run_report run = {.struct_size = sizeof run};
   tetlod_status status = tetlod_fetch_report(context, &run);
   if (status != TETLOD_OK) return status;
-  parameters(to, context);
+  int sized = parameters(to, context);
   counts(to, &run);
   memory(to, &run);
-  seconds(to, &run, around);
+  seconds(to, &run, around, sized && run.seconds_cull == 0);
   if (error != NULL) errors(to, error);
   return TETLOD_OK;
 }

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <iomanip>
 #include <iostream>
 #include <new>
 
@@ -44,6 +45,11 @@ void print_table(const Arguments &arguments, const std::string &field, const vtk
   std::cout << arguments.input << " -> " << arguments.output << ", field " << field << '\n';
   const table2_seconds around = {seconds.reading, -1.0, seconds.writing};
   check(table2_print(stdout, filter.GetContext(), &filter.GetErrorReport(), &around), filter.GetContext());
+  std::cout << std::fixed << std::setprecision(1) << "Beside that it took " << seconds.measuring
+            << " s to measure the error";
+  if (!arguments.pictures.empty())
+    std::cout << ", and " << seconds.pictures << " s to draw " << arguments.pictures << "/report.html";
+  std::cout << '\n';
 }
 
 void run(const Arguments &arguments) {

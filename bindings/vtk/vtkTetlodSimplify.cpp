@@ -79,12 +79,12 @@ void vtkTetlodSimplify::SetOption(const char *name, double value) {
     const bool integer = is_integer(option);
     if (integer && value != std::floor(value))
       throw tetlod::Error(TETLOD_ERR_OPTION, std::string(name) + ": " + std::to_string(value) + " is not an integer");
-    if (this->GetOption(name) == value) return;
+    const double before = this->GetOption(name);
     if (integer)
       context.set_int(option, static_cast<int64_t>(value));
     else
       context.set_real(option, value);
-    this->Modified();
+    if (value != before) this->Modified();
   } catch (const tetlod::Error &error) {
     this->Fail(error.status(), error.what());
   }

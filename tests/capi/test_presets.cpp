@@ -52,6 +52,17 @@ TEST_F(Presets, LeaveTheSizeToABoundWhicheverIsSetFirst) {
   EXPECT_EQ(no_more.hash, without_bound.hash);
 }
 
+TEST_F(Presets, TellWhichRatioHolds) {
+  const Context context = make_context();
+  double ratio = -1;
+  tetlod_set_preset(context.get(), TETLOD_PRESET_ACCURATE);
+  for (double bound : {0.0, 0.1, 0.0}) {
+    tetlod_set_real(context.get(), TETLOD_OPT_MAX_ERROR, bound);
+    ASSERT_EQ(tetlod_get_real(context.get(), TETLOD_OPT_TARGET_RATIO, &ratio), TETLOD_OK);
+    EXPECT_EQ(ratio, bound > 0 ? 0 : 0.1);
+  }
+}
+
 TEST_F(Presets, LeaveARatioAsItIs) {
   const auto report = report_with([](tetlod_context *of) {
     tetlod_set_preset(of, TETLOD_PRESET_FAST);
