@@ -1,7 +1,10 @@
 // What a report says of a mesh, of its boundary, and of how it became coarse.
 #pragma once
+#include <string>
+
 #include "pipeline.hpp"
 #include "prepare.hpp"
+#include "status.hpp"
 #include "surface_topology.hpp"
 
 namespace tetlod {
@@ -43,6 +46,16 @@ inline void describe_collapses(std::int64_t points_left, Report &report) {
   report.samples_outside = report.samples_too_near = report.steiner_points = report.reused_samples = 0;
   report.cleaned_edges = report.reused_triangles = report.boundary_retries = report.remesh_attempts = 0;
   report.worker_peak_bytes = 0;
+}
+
+/// What to say where a bound does not hold at these original vertices, whatever of the boundary is kept.
+inline std::string failed_bound(double bound, Span<const std::int32_t> beyond, std::int32_t index_base,
+                                const Report &report) {
+  const std::string where =
+      beyond.empty() ? "" : text(" at vertex %lld", static_cast<long long>(beyond[0]) + index_base);
+  const std::string why = report.max_error > bound ? "the largest error is " + number(report.max_error)
+                                                   : "it is just outside of a tet with other values";
+  return "max-error " + number(bound) + " cannot be held" + where + ", with the whole boundary: " + why;
 }
 
 }  // namespace tetlod

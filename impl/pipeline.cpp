@@ -91,10 +91,10 @@ class Pipeline {
   bool meet_budget(Worker &worker) {
     for (const Budget budget = budget_;; budget_ = budget) {
       const bool collapsed = coarsen(worker);
-      const Array<std::int32_t> beyond = refine(collapsed);
-      if (beyond.empty()) return !has_grown() || is_whole(budget_, options_, report_);
+      refine(collapsed);
+      if (beyond_.empty()) return !has_grown() || is_whole(budget_, options_, report_);
       if (!collapsed || kept_.restorations() == most_restorations) return false;
-      kept_.restore(beyond, original_.view.points.size());
+      kept_.restore(beyond_, original_.view.points.size());
     }
   }
 
@@ -167,8 +167,7 @@ class Pipeline {
   double deviation_limit() const { return options_.max_deviation * original_.box.diagonal(); }
 
   [[noreturn]] void fail_bound() const {
-    fail(Status::max_error, "max-error %s cannot be held: the largest error is %s, with the whole boundary",
-         number(options_.max_error).c_str(), number(report_.max_error).c_str());
+    fail(Status::max_error, "%s", failed_bound(options_.max_error, beyond_, input_.index_base, report_).c_str());
   }
 
   /// What TetGen makes of so many samples is known afterwards alone: too many tets are taken back here, too few are
@@ -194,8 +193,7 @@ class Pipeline {
     }
   }
 
-  /// The original vertices that are beyond the bound.
-  Array<std::int32_t> refine(bool collapsed) {
+  void refine(bool collapsed) {
     const StageTimer timer(Stage::values, job_, report_);
     const double range = original_.range, bound = options_.max_error * range;
     const Array<std::uint8_t> kept = kept_.flags_of(origin_, job_.memory);
@@ -211,7 +209,7 @@ class Pipeline {
     report_.inserted_points = refined.inserted - refined.inserted_on_boundary;
     describe_insertions(refined.inserted_on_boundary, report_);
     report_.max_error = range > 0 ? refined.max_error / range : 0;  // what is constant stays so
-    return std::move(refined.beyond_bound);
+    beyond_ = std::move(refined.beyond_bound);
   }
 
   /// False: TetGen finds no way with all that is to be kept.
@@ -367,6 +365,7 @@ class Pipeline {
   Array<std::int32_t> samples_{&job_.memory};   // after culling
   RemeshResult remeshed_{job_.memory};
   KeptVertices kept_{original_.flags, job_.memory};
+  Array<std::int32_t> beyond_{&job_.memory};  // the bound: original vertices, after the last refinement
   Array<std::int32_t> origin_{&job_.memory};  // of each point of mesh_, the original vertex that it is, or -1
 };
 

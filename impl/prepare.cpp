@@ -161,11 +161,11 @@ Span<const Tet> read_tets(const Input &input, Job &job, Array<Tet> &copy) {
 }
 
 /// Looks at the coordinates and values of the points that tets use. Points without a finite value are marked as not
-/// used, or refused.
-void check_used_points(const Input &input, const Options &options, Job &job, Original &original,
-                       Array<std::uint8_t> &used) {
+/// used, or refused. Returns the others' box.
+Box check_used_points(const Input &input, const Options &options, Job &job, Original &original) {
   const MeshView &mesh = original.view;
-  Ranges ranges;
+  Array<std::uint8_t> &used = original.used;
+  Box box;
   for (std::size_t v = 0; v < used.size(); v++) {
     if (v % block == 0) job.poll(0.5);
     if (!used[v]) continue;
@@ -179,23 +179,35 @@ void check_used_points(const Input &input, const Options &options, Job &job, Ori
       original.nonfinite_points++;
       continue;
     }
-    add_values(mesh, v, ranges);
-    original.box.add(mesh.points[v]);
+    box.add(mesh.points[v]);
+  }
+  return box;
+}
+
+/// Of what is left: a point whose tets were all dropped is none of the mesh's.
+void measure(const Input &input, Job &job, Original &original) {
+  const Array<std::uint8_t> &counts = original.left.empty() ? original.used : original.left;
+  Ranges ranges;
+  original.box = {};
+  for (std::size_t v = 0; v < counts.size(); v++) {
+    if (v % block == 0) job.poll(0.9);
+    if (!counts[v]) continue;
+    add_values(original.view, v, ranges);
+    original.box.add(original.view.points[v]);
   }
   find_scales(input, ranges, original);
 }
 
 /// Renames merged vertices and leaves out the tets that have a vertex twice or one that is not used; the tets then are
 /// ours.
-void drop_and_rename(Span<const std::int32_t> representative, Span<const std::uint8_t> used, Job &job,
-                     Original &original) {
+void drop_and_rename(Span<const std::int32_t> representative, Job &job, Original &original) {
   Array<Tet> kept(&job.memory);
   kept.reserve(original.view.tets.size());
   original.tet_number.reserve(original.view.tets.size());
   for (std::size_t i = 0; i < original.view.tets.size(); i++) {
     if (i % block == 0) job.poll(0.9);
     const Tet &t = original.view.tets[i];
-    if (std::any_of(t.begin(), t.end(), [&](std::int32_t v) { return !used[std::size_t(v)]; })) continue;
+    if (std::any_of(t.begin(), t.end(), [&](std::int32_t v) { return !original.used[std::size_t(v)]; })) continue;
     Tet renamed = t;
     for (std::int32_t &v : renamed) v = representative[std::size_t(v)];
     if (has_repeated_vertex(renamed)) continue;
@@ -205,18 +217,20 @@ void drop_and_rename(Span<const std::int32_t> representative, Span<const std::ui
   original.dropped_tets = std::int64_t(original.view.tets.size() - kept.size());
   original.tets = std::move(kept);
   original.view.tets = original.tets;
+  original.left = find_used(original.view.tets, original.view.points.size(), job);
 }
 
-void scale_extreme_coordinates(Job &job, Original &original) {
-  const int exponent = extreme_exponent(original.box);
-  if (exponent == 0) return;
+/// Returns what becomes of the box.
+Box scale_extreme_coordinates(const Box &box, Job &job, Original &original) {
+  const int exponent = extreme_exponent(box);
+  if (exponent == 0) return box;
   original.exponent = exponent;
   const auto scaled = [&](const Vec3 &p) { return times_power_of_two(p, -exponent); };
   Array<Vec3> points = array_of(original.view.points.size(), Vec3(0), job);
   for_each(points.size(), job, [&](std::size_t v) { points[v] = scaled(original.view.points[v]); });
   original.points = std::move(points);
   original.view.points = original.points;
-  original.box = {scaled(original.box.low), scaled(original.box.high)};
+  return {scaled(box.low), scaled(box.high)};
 }
 
 void read_flags(const Input &input, Span<const std::int32_t> representative, Job &job, Original &original) {
@@ -285,21 +299,20 @@ void prepare_original(const Input &input, const Options &options, Job &job, Orig
   original.view.points = read_points(input, job, original.points);
   read_values(input, job, original);
   original.view.tets = read_tets(input, job, original.tets);
-  Array<std::uint8_t> &used = original.used;
-  used = find_used(original.view.tets, original.view.points.size(), job);
-  check_used_points(input, options, job, original, used);
-  scale_extreme_coordinates(job, original);
+  original.used = find_used(original.view.tets, original.view.points.size(), job);
+  const Box submitted = scale_extreme_coordinates(check_used_points(input, options, job, original), job, original);
 
+  // The diagonal here is that of what was submitted: which tets are left is not known before points are merged.
   Array<std::int32_t> representative(&job.memory);
-  const double diagonal = original.box.diagonal();
-  original.merged_points =
-      merge_points(original.view.points, used, options.merge_tolerance * diagonal, job, representative);
+  original.merged_points = merge_points(original.view.points, original.used,
+                                        options.merge_tolerance * submitted.diagonal(), job, representative);
   read_flags(input, representative, job, original);
   if (original.merged_points || original.nonfinite_points || any_repeated_vertex(original.view.tets, job))
-    drop_and_rename(representative, used, job, original);
+    drop_and_rename(representative, job, original);
   if (original.view.tets.empty())
     fail(Status::mesh_empty, "none of the %lld tets has four different vertices with a value",
          static_cast<long long>(input.tets.tuples));
+  measure(input, job, original);
 }
 
 bool renew_values(const Input &input, Job &job, Original &original) {
@@ -309,14 +322,11 @@ bool renew_values(const Input &input, Job &job, Original &original) {
   if (original.points.empty()) original.view.points = {reinterpret_cast<const Vec3 *>(input.xyz[0].data), points};
   if (original.tets.empty()) original.view.tets = {reinterpret_cast<const Tet *>(input.tets.data), tets};
   read_values(input, job, original);
-  Ranges ranges;
   for (std::size_t v = 0; v < points; v++) {
     if (v % block == 0) job.poll(0.5);
-    if (!original.used[v]) continue;
-    if (first_nonfinite(original.view, v) < original.view.fields) return false;
-    add_values(original.view, v, ranges);
+    if (original.used[v] && first_nonfinite(original.view, v) < original.view.fields) return false;
   }
-  find_scales(input, ranges, original);
+  measure(input, job, original);
   return true;
 }
 

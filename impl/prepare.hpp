@@ -12,22 +12,29 @@ namespace tetlod {
 /// The original mesh; the caller's own arrays where their layout allows, copies where not.
 struct Original {
   explicit Original(Memory &memory)
-      : points(&memory), scalars(&memory), tets(&memory), tet_number(&memory), flags(&memory), used(&memory) {}
+      : points(&memory),
+        scalars(&memory),
+        tets(&memory),
+        tet_number(&memory),
+        flags(&memory),
+        used(&memory),
+        left(&memory) {}
   MeshView view;
   Array<Vec3> points;
   Array<double> scalars;  ///< with those of the further fields that steer
   Array<Tet> tets;
   Array<std::int32_t> tet_number;     ///< of each tet among the submitted ones; empty: none was dropped
   Array<std::uint8_t> flags;          ///< of each vertex, those of points that became it included; empty: none are set
-  Array<std::uint8_t> used;           ///< of each submitted point: a tet has it, and its coordinates are finite
+  Array<std::uint8_t> used;           ///< of each submitted point: a submitted tet has it, and all of it is finite
+  Array<std::uint8_t> left;           ///< of each: a tet of the view has it; empty: those that are used
   std::int64_t merged_points = 0;     ///< coincident points that became one
   std::int64_t nonfinite_points = 0;  ///< without a finite value, ignored with their tets
   std::int64_t dropped_tets = 0;      ///< with such a point, or with a repeated vertex, as submitted or after merging
   std::int32_t index_base = 0;        ///< as submitted
   int exponent = 0;                   ///< the view's coordinates are the caller's divided by 2^exponent
-  double scalar_min = 0, scalar_max = 0;  ///< over the vertices that tets use
+  double scalar_min = 0, scalar_max = 0;  ///< over the vertices that tets of the view have
   double range = 0;  ///< of the scalars; where they are constant and another field is not, something in its place
-  Box box;           ///< of the vertices that tets use
+  Box box;           ///< of the vertices that tets of the view have
 
   HostNumbers numbers() const { return {index_base, {}, tet_number}; }
 };

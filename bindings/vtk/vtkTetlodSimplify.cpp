@@ -84,7 +84,7 @@ void vtkTetlodSimplify::SetOption(const char *name, double value) {
       context.set_int(option, static_cast<int64_t>(value));
     else
       context.set_real(option, value);
-    if (value != before) this->Modified();
+    if (value != before) this->Modified();  // the same one is set, too: a ratio is no preset's any more then
   } catch (const tetlod::Error &error) {
     this->Fail(error.status(), error.what());
   }

@@ -227,5 +227,68 @@ TEST(Outside, DeviationIsBoundedAtTheMiddlesOfDividedTriangles) {
   }
 }
 
+/// Elements that pad an array name a node far away, with a value that nobody meant.
+TEST(Outside, ABoundIsOfWhatRepairsLeave) {
+  for (const bool later : {false, true}) {
+    Cube cube(6);
+    for (std::size_t v = 0; v < cube.values.size(); v++) cube.values[v] = std::sin(5 * cube.xyz[3 * v]);
+    const auto run = [&](tetlod_context *context) {
+      submit(context, cube);
+      tetlod_set_real(context, TETLOD_OPT_MAX_ERROR, 0.01);
+      EXPECT_EQ(tetlod_run(context), TETLOD_OK) << message_of(context);
+      tetlod_run_report report{};
+      report.struct_size = sizeof report;
+      EXPECT_EQ(tetlod_fetch_report(context, &report), TETLOD_OK);
+      return report;
+    };
+    const Context sound = make_context(), padded = make_context();
+    const tetlod_run_report expected = run(sound.get());
+    const auto padding = std::int32_t(cube.values.size());
+    cube.xyz.insert(cube.xyz.end(), {1000, 1000, 1000});
+    cube.values.push_back(1e6);
+    cube.corners.insert(cube.corners.end(), 4, padding);
+    if (later) {  // other values before, so that the mesh is reused
+      Cube other = cube;
+      for (double &value : other.values) value *= 2;
+      std::swap(other.values, cube.values);
+      run(padded.get());
+      std::swap(other.values, cube.values);
+    }
+    const tetlod_run_report report = run(padded.get());
+    EXPECT_EQ(report.hash, expected.hash);
+    EXPECT_EQ(report.scalar_max, expected.scalar_max);
+    EXPECT_EQ(report.dropped_tets, 1);
+    EXPECT_EQ(report.reused_tets > 0, later);
+  }
+}
+
+/// A slit inside, open by less than what a weight is rounded by, with another value on its upper side.
+TEST(Outside, ABoundThatCannotBeHeldNamesAVertex) {
+  Cube cube(6);
+  std::map<std::int32_t, std::int32_t> twins;
+  for (std::int32_t v = 0; v < 7 * 7 * 7; v++) {
+    const double *const p = &cube.xyz[3 * std::size_t(v)];
+    if (p[2] != 0.5 || std::abs(p[0] - 0.5) > 0.2 || std::abs(p[1] - 0.5) > 0.2) continue;
+    twins[v] = std::int32_t(cube.values.size());
+    const double x = p[0], y = p[1];
+    cube.xyz.insert(cube.xyz.end(), {x, y, 0.5 + 1e-9});
+    cube.values.push_back(cube.values[std::size_t(v)] + 20);
+  }
+  ASSERT_EQ(twins.size(), 9u);
+  for (std::size_t t = 0; t < cube.corners.size(); t += 4) {
+    double above = 0;
+    for (std::size_t k = 0; k < 4; k++) above += cube.xyz[3 * std::size_t(cube.corners[t + k]) + 2] - 0.5;
+    for (std::size_t k = 0; k < 4 && above > 0; k++)
+      if (const auto twin = twins.find(cube.corners[t + k]); twin != twins.end()) cube.corners[t + k] = twin->second;
+  }
+  const Context context = make_context();
+  submit(context.get(), cube);
+  tetlod_set_real(context.get(), TETLOD_OPT_MAX_ERROR, 0.05);
+  EXPECT_EQ(tetlod_run(context.get()), TETLOD_ERR_MAX_ERROR);
+  const std::string message = message_of(context.get());
+  EXPECT_NE(message.find("at vertex "), std::string::npos) << message;
+  EXPECT_EQ(message.find("largest error"), std::string::npos) << message << ": it is within the bound";
+}
+
 }  // namespace
 }  // namespace tetlod_test

@@ -92,7 +92,8 @@ TEST_F(Report, SteeringFieldsMayStandAnywhere) {
 
 TEST_F(Report, TableIsPrintedUnlessQuiet) {
   const Outcome loud = run(), quiet = run({"--quiet"});
-  for (const char *row : {"Steiner points", "selected samples", "reading mesh", "CDT", "total (real)", "MB", "RMS"}) {
+  for (const char *row : {"Steiner points", "selected samples", "reading mesh", "CDT", "total (real)", "MB", "RMS",
+                          "s to measure the error"}) {
     EXPECT_NE(loud.out.find(row), std::string::npos) << row;
   }
   EXPECT_EQ(quiet.out, "");

@@ -268,6 +268,50 @@ TEST_F(Prepare, MergesAndDrops) {
   }
 }
 
+/// Elements that pad an array, or that nobody gave a value: their other points lie and mean nothing, too.
+TEST_F(Prepare, PointsOfDroppedTetsAreNoneOfTheMesh) {
+  Mesh mesh = cube_for_floats();
+  const auto padding = std::int32_t(mesh.points.size());
+  for (const Vec3 &p : {Vec3(1000), Vec3(1001), Vec3(1002), Vec3(1000, 0, 0)}) mesh.points.push_back(p);
+  mesh.scalars.insert(mesh.scalars.end(), {1e6, -1e6, 1e6, nan});
+  mesh.tets.push_back({padding, padding, padding, padding});
+  mesh.tets.push_back({padding, padding + 1, padding + 2, padding + 3});
+  Options options;
+  options.on_nonfinite = policy_repair;
+  const auto expect_that_of_the_cube = [&](double largest) {
+    EXPECT_EQ(original.dropped_tets, 2);
+    EXPECT_EQ(original.scalar_min, -4);
+    EXPECT_EQ(original.scalar_max, largest);
+    EXPECT_EQ(original.box.low, Vec3(0));
+    EXPECT_EQ(original.box.high, Vec3(1));
+  };
+  prepare_original(input_of(mesh), options, host.job, original);
+  expect_that_of_the_cube(3);
+  mesh.scalars.back() = -1e6;
+  mesh.tets.back()[3] = padding;
+  original = Original(host.memory);
+  prepare_original(input_of(mesh), options, host.job, original);
+  expect_that_of_the_cube(3);
+  *std::find(mesh.scalars.begin(), mesh.scalars.end(), 3) = 5;
+  EXPECT_TRUE(renew_values(input_of(mesh), host.job, original));
+  expect_that_of_the_cube(5);
+  mesh.scalars.back() = nan;
+  EXPECT_TRUE(renew_values(input_of(mesh), host.job, original)) << "no tet has it";
+  mesh.scalars[std::size_t(padding)] = nan;
+  EXPECT_FALSE(renew_values(input_of(mesh), host.job, original));
+}
+
+/// The value that counts is that of the point that stays.
+TEST_F(Prepare, MergedPointsHaveOneValue) {
+  Mesh mesh = cube_for_floats();
+  mesh.points.push_back(mesh.points[std::size_t(mesh.tets[0][0])]);
+  mesh.scalars.push_back(1e6);
+  mesh.tets[0][0] = std::int32_t(mesh.points.size() - 1);
+  prepare(input_of(mesh));
+  EXPECT_EQ(original.merged_points, 1);
+  EXPECT_EQ(original.scalar_max, 3);
+}
+
 TEST_F(Prepare, PointsThatNoTetUsesMayBeAnything) {
   Mesh mesh = cube_for_floats();
   mesh.points.push_back(Vec3(nan, infinity, 1e300));
