@@ -56,6 +56,7 @@ class Inspection {
     look_at_range();
     merge();
     drop_repeated();
+    look_at_values();
     drop_duplicates();
     look_at_tets();
     look_at_faces();
@@ -80,23 +81,29 @@ class Inspection {
   }
 
   void look_at_points() {
-    facts_.low = std::numeric_limits<double>::infinity();
-    facts_.high = -facts_.low;
     for (std::size_t v = 0; v < used_.size(); v++) {
-      const bool value = std::isfinite(mesh_.values[v]);
       if (!used_[v]) {
         facts_.unused++;
       } else if (!finite(mesh_.points[v])) {
         facts_.nonfinite_points++;
         used_[v] = false;
-      } else if (!value) {
+      } else if (!std::isfinite(mesh_.values[v])) {
         facts_.nonfinite_values++;
         if (drop_nonfinite_) used_[v] = false;
       }
-      if (!used_[v] || !value) continue;
-      facts_.low = std::min(facts_.low, mesh_.values[v]);
-      facts_.high = std::max(facts_.high, mesh_.values[v]);
     }
+  }
+
+  void look_at_values() {
+    facts_.low = std::numeric_limits<double>::infinity();
+    facts_.high = -facts_.low;
+    for (const Corners &tet : tets_)
+      for (const std::int64_t v : tet) {
+        const double value = mesh_.values[std::size_t(v)];
+        if (!std::isfinite(value)) continue;
+        facts_.low = std::min(facts_.low, value);
+        facts_.high = std::max(facts_.high, value);
+      }
   }
 
   void look_at_range() {

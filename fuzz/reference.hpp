@@ -19,7 +19,7 @@ struct Facts {
   // After the repairs that are the default; empty where nothing can be repaired.
   std::vector<Corners> tets;   ///< merged, without those that are dropped, given twice, or peeled off as flat
   std::vector<Face> boundary;  ///< outward, in the numbers of the mesh
-  double low = 0, high = 0;    ///< of the values of the points that tets use
+  double low = 0, high = 0;    ///< of the values of the points that tets have which are not dropped
   /// The sizes of coordinates differ by more than 1e90: products of three leave the range of doubles, and what is flat
   /// cannot be told.
   bool wide = false;
