@@ -400,8 +400,9 @@ TETLOD_API tetlod_status tetlod_clear(tetlod_context *context);
  * TETLOD_ERR_STATE, TETLOD_ERR_STRUCT_SIZE, TETLOD_ERR_MEMORY_LIMIT, TETLOD_ERR_CANCELLED, TETLOD_ERR_TIME_LIMIT. */
 TETLOD_API tetlod_status tetlod_check(tetlod_context *context, tetlod_mesh_report *out);
 /* Estimates tetlod_run_report.peak_bytes of a tetlod_run with what is submitted and the options as they are, within a
- * factor of 1.5 where the mesh is sound and its topology allows the size; a run that reuses what is kept may take a
- * third. TETLOD_ERR_STATE, what tetlod_run() says of a bad mesh, TETLOD_ERR_MEMORY_LIMIT, _CANCELLED, _TIME_LIMIT. */
+ * factor of 1.5 where the mesh is sound and its topology allows the size; two and a half times as much may be taken
+ * where it does not, or a bound has vertices restored, a third where what is kept is reused. TETLOD_ERR_STATE, what
+ * tetlod_run() says of a bad mesh, TETLOD_ERR_MEMORY_LIMIT, _CANCELLED, _TIME_LIMIT. */
 TETLOD_API tetlod_status tetlod_estimate_memory(tetlod_context *context, uint64_t *bytes);
 
 /* ---- Running ----------------------------------------------------------------------------------------------------- */

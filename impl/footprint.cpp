@@ -19,28 +19,39 @@ namespace {
 constexpr double bytes_a_triangle = 530, bytes_a_result_point = 360;
 // Of a boundary whose decimation sees the field, beside these; and for each field more.
 constexpr double quadric_a_triangle = 90, values_a_triangle = 9;
-// Where the solid's edges collapse, the boundary is decimated only if that leads to no sound mesh: between the two.
-constexpr double seldom_a_triangle = 490, seldom_values_a_triangle = 5;
-// Of a run with a target: neighbours, frames or normal equations, and room to grow.
-constexpr double bytes_a_refined_tet = 250, bytes_a_refined_point = 70, bytes_a_probe = sizeof(Probe<1>) + 8;
-// Of these for each field more that steers.
-constexpr double values_a_refined_tet = 2, values_a_refined_point = 7, values_a_solid_point = 8;
+// Where the solid's edges collapse, the boundary is decimated only if that leads to no sound mesh: between the two, and
+// so that a plate's estimate is not too large.
+constexpr double seldom_a_triangle = 390, seldom_values_a_triangle = 4;
 // Of the original while its edges collapse.
-constexpr double bytes_a_solid_tet = 58, bytes_a_solid_point = 150, bytes_of_collapses = 2e5;
+constexpr double bytes_a_solid_tet = 67, bytes_a_solid_point = 54, bytes_a_solid_triangle = 157,
+                 bytes_of_collapses = 8e4;
+// Of a run with a target: neighbours, frames or normal equations, and room to grow; of the original's boundary.
+constexpr double bytes_a_refined_tet = 123, bytes_a_probe = 80, bytes_a_refined_triangle = 149;
+// Of these for each field more that steers.
+constexpr double values_a_refined_tet = 4, values_a_solid_point = 8;
 // Of a field: original vertices are held by many tets, the centroids of cells by one.
 constexpr double bytes_a_located_point = 400, bytes_a_located_cell = 190, bytes_a_stencil = 48;
+
+/// Bytes at a vertex, of the fields after the first.
+double more_values(const Outlook &outlook) { return sizeof(double) * (outlook.fields - 1); }
 
 /// Of a result, and of what it is written to.
 double bytes_of_result(const Outlook &outlook) { return 32 * outlook.points + 16 * outlook.tets; }
 
 double bytes_of_decimation(const Outlook &outlook) {
-  const double more = sizeof(double) * (outlook.fields - 1);
   double a_triangle = bytes_a_triangle;
   if (outlook.solid_tets > 0)
-    a_triangle = seldom_a_triangle + seldom_values_a_triangle * more;
+    a_triangle = seldom_a_triangle + seldom_values_a_triangle * more_values(outlook);
   else if (outlook.probes > 0)
-    a_triangle += quadric_a_triangle + values_a_triangle * more;
+    a_triangle += quadric_a_triangle + values_a_triangle * more_values(outlook);
   return a_triangle * outlook.boundary_triangles;
+}
+
+double bytes_of_collapsing(const Outlook &outlook) {
+  if (!(outlook.solid_tets > 0)) return 0;
+  return bytes_a_solid_tet * outlook.solid_tets +
+         (bytes_a_solid_point + values_a_solid_point * more_values(outlook)) * outlook.solid_points +
+         bytes_a_solid_triangle * outlook.boundary_triangles + bytes_of_collapses;
 }
 
 double bytes_of_fields(const Outlook &outlook, const Input &input) {
@@ -59,10 +70,9 @@ double bytes_of_fields(const Outlook &outlook, const Input &input) {
 
 double bytes_of_refining(const Outlook &outlook) {
   if (!(outlook.probes > 0)) return 0;
-  const double more = sizeof(double) * (outlook.fields - 1);
-  return (bytes_a_refined_tet + values_a_refined_tet * more) * outlook.tets +
-         (bytes_a_refined_point + values_a_refined_point * more) * outlook.points +
-         (bytes_a_probe + more) * outlook.probes;
+  return (bytes_a_refined_tet + values_a_refined_tet * more_values(outlook)) * outlook.tets +
+         (bytes_a_probe + more_values(outlook)) * outlook.probes +
+         bytes_a_refined_triangle * outlook.boundary_triangles;
 }
 
 /// Largest distance of the values of some vertices from the linear function that fits them best.
@@ -158,20 +168,13 @@ double tets_for_bound(const MeshView &mesh, double bound, Job &job) {
 }  // namespace
 
 double expected_bytes(const Outlook &outlook, const Input &input) {
-  const double more = sizeof(double) * (outlook.fields - 1);
-  const double collapsing = outlook.solid_tets > 0
-                                ? bytes_a_solid_tet * outlook.solid_tets +
-                                      (bytes_a_solid_point + values_a_solid_point * more) * outlook.solid_points +
-                                      bytes_of_collapses
-                                : 0;
-  return std::max({bytes_of_decimation(outlook), collapsing, bytes_a_result_point * outlook.points,
+  return std::max({bytes_of_decimation(outlook), bytes_of_collapsing(outlook), bytes_a_result_point * outlook.points,
                    bytes_of_refining(outlook), input.fields.empty() ? 0 : bytes_of_fields(outlook, input)});
 }
 
 std::size_t bytes_to_refine(const MeshView &original, std::int64_t tets, int rounds) {
   Outlook of;
   of.tets = double(tets);
-  of.points = of.tets / tets_a_point;
   of.fields = double(original.fields);
   of.probes = double(expected_probes(original, enough_probes(of.tets, rounds, true)));
   return std::size_t(bytes_of_refining(of));

@@ -18,10 +18,11 @@ struct Outlook {
 };
 
 /// Bytes of the largest stage that is still to come, beside what is in use after sampling. By experience: the
-/// constants come from real sets with 2 K to 54 K boundary triangles and results of 0.4 K to 750 K tets.
+/// constants come from 48 sets, real ones and plates, beams and rings, of 3 K to 1.7 M tets and 1 K to 62 K boundary
+/// triangles, 2 to 50 % kept.
 double expected_bytes(const Outlook &outlook, const Input &input);
 
-/// Of refine(), beside what is in use before it, with a mesh of so many tets.
+/// Of refine(), beside what is in use before it, the boundary too, with a mesh of so many tets.
 std::size_t bytes_to_refine(const MeshView &original, std::int64_t tets, int rounds);
 
 /// When boundary, samples and the first budget are known.

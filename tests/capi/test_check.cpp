@@ -294,6 +294,30 @@ TEST(EstimateMemory, KnowsTargetsBoundsAndFields) {
       }
 }
 
+/// The lowest layers of a cube of n: thin solids have many triangles a tet.
+Cube plate(int n, int layers) {
+  Cube cube(n);
+  const auto left = std::size_t((layers + 1) * (n + 1) * (n + 1));
+  cube.xyz.resize(3 * left);
+  cube.values.resize(left);
+  cube.corners.resize(cube.corners.size() / std::size_t(n) * std::size_t(layers));
+  return cube;
+}
+
+TEST(EstimateMemory, KnowsThinSolids) {
+  for (int n : {16, 40, 60})
+    for (int layers : {1, 2})
+      for (double ratio : {0.02, 0.1, 0.3}) {
+        const Cube cube = plate(n, layers);
+        const Context context = make_context();
+        submit(context.get(), cube);
+        ASSERT_EQ(tetlod_set_real(context.get(), TETLOD_OPT_TARGET_RATIO, ratio), TETLOD_OK);
+        expect_estimate(context.get(),
+                        std::to_string(n) + ", " + std::to_string(layers) + " layers, ratio " + std::to_string(ratio));
+        EXPECT_EQ(last_report(context.get()).remesh_attempts, 0);
+      }
+}
+
 /// What a context keeps of earlier runs counts once, and shortens the next; the estimate does what that begins with.
 TEST(EstimateMemory, OfALaterRunIsLessThanThreeTimesWhatItTakes) {
   Cube cube(32);
