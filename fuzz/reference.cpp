@@ -56,11 +56,11 @@ class Inspection {
     look_at_range();
     merge();
     drop_repeated();
-    look_at_values();
     drop_duplicates();
     look_at_tets();
     look_at_faces();
     if (facts_.nonmanifold_faces == 0) peel();
+    look_at_values();
     return facts_;
   }
 
@@ -97,7 +97,7 @@ class Inspection {
   void look_at_values() {
     facts_.low = std::numeric_limits<double>::infinity();
     facts_.high = -facts_.low;
-    for (const Corners &tet : tets_)
+    for (const Corners &tet : facts_.tets)
       for (const std::int64_t v : tet) {
         const double value = mesh_.values[std::size_t(v)];
         if (!std::isfinite(value)) continue;

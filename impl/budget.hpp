@@ -66,7 +66,7 @@ struct Budget {
 constexpr double tets_a_sample = 6.5, tets_a_boundary_point = 3;
 /// Of a result with a target: tets over points; and over the parts of the original in which the field is linear, as far
 /// as the bound of the error asks for it.
-constexpr double tets_a_point = 4.5, tets_a_part = 5;
+constexpr double tets_a_point = 4.5, tets_a_part = 6.5;
 /// Share of the tets that is left to the vertices that refine() inserts.
 constexpr double spare = 0.05;
 constexpr int most_rounds = 6, most_restorations = 4;

@@ -101,8 +101,7 @@ void find_stencil(const Input &input, const Options &options, Prepared &prepared
   if (!held) {
     Input bare = input;
     bare.flags = {};  // which change nothing here, and may be wrong
-    prepare_original(bare, options, job, fresh.original);
-    extract_boundary(fresh.original.view, job, fresh.boundary, fresh.original.numbers());
+    prepare_with_boundary(bare, options, job, fresh.original, fresh.boundary);
   }
   const Prepared &of = held ? prepared : fresh;
   Array<Vec3> copy(&job.memory);

@@ -26,7 +26,7 @@ constexpr double seldom_a_triangle = 390, seldom_values_a_triangle = 4;
 constexpr double bytes_a_solid_tet = 67, bytes_a_solid_point = 54, bytes_a_solid_triangle = 157,
                  bytes_of_collapses = 8e4;
 // Of a run with a target: neighbours, frames or normal equations, and room to grow; of the original's boundary.
-constexpr double bytes_a_refined_tet = 123, bytes_a_probe = 80, bytes_a_refined_triangle = 149;
+constexpr double bytes_a_refined_tet = 164, bytes_a_refined_triangle = 171, bytes_a_probe = sizeof(Probe<1>) + 8;
 // Of these for each field more that steers.
 constexpr double values_a_refined_tet = 4, values_a_solid_point = 8;
 // Of a field: original vertices are held by many tets, the centroids of cells by one.
@@ -144,16 +144,6 @@ double share_away(Span<const Vec3> points, Span<const Triangle> boundary, Span<c
     away += nearest.nearest(points[std::size_t(samples[i])]).distance >= least;
   }
   return asked ? double(away) / double(asked) : 1;
-}
-
-/// Coordinates of others may be no numbers.
-Array<std::int32_t> used_vertices(const MeshView &mesh, Job &job) {
-  const Array<std::uint8_t> used = find_used(mesh.tets, mesh.points.size(), job);
-  Array<std::int32_t> vertices(&job.memory);
-  vertices.reserve(used.size());
-  for (std::size_t v = 0; v < used.size(); v++)
-    if (used[v]) vertices.push_back(std::int32_t(v));
-  return vertices;
 }
 
 /// How many tets a bound of the error takes, more or less: by the number of parts into which the vertices are to be

@@ -152,7 +152,10 @@ FieldError measure_error(const MeshView &original, double range, const TetMesh &
 FieldError measure_error(const Input &input, const Options &options, const TetMesh &result, int samples_per_tet,
                          Job &job) {
   Original original(job.memory);
-  prepare_original(input, options, job, original);
+  {
+    Boundary boundary(job.memory);
+    prepare_with_boundary(input, options, job, original, boundary);
+  }
   const auto measure = [&](const TetMesh &mesh) {
     return measure_error(original.view, original.scalar_max - original.scalar_min, mesh, samples_per_tet,
                          std::uint64_t(options.seed), job);

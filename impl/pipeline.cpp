@@ -40,8 +40,8 @@ class Pipeline {
   /// What needs neither decimation nor remeshing.
   void begin() {
     prepare();
-    if (options_.max_error > 0) refuse_lost_fields(input_, original_);
     extract();
+    if (options_.max_error > 0) refuse_lost_fields(input_, original_);
     budget_.sigma = options_.sigma;
     if (as_published(options_))
       sample();
@@ -243,13 +243,16 @@ class Pipeline {
       if (any_strict_policy(options_)) refuse_defects(find_defects(input_, options_, job_), options_);
       prepare_original(input_, options_, job_, original_);
     }
-    describe_input(input_, original_, report_);
   }
 
   void extract() {
     const StageTimer timer(Stage::boundary, job_, report_);
-    if (!report_.reused_tets) extract_boundary(original_.view, job_, boundary_, original_.numbers());
+    if (!report_.reused_tets) {
+      extract_boundary(original_.view, job_, boundary_, original_.numbers());
+      drop_excluded(input_, job_, boundary_, original_);
+    }
     prepared_.complete();
+    describe_input(input_, original_, report_);
     report_.dropped_tets += boundary_.flat_tets + boundary_.duplicate_tets;
     report_.unused_points = boundary_.unused_points - report_.merged_points - report_.nonfinite_points;
     report_.interior_points_in = std::int64_t(boundary_.interior.size());

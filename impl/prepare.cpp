@@ -198,12 +198,20 @@ void measure(const Input &input, Job &job, Original &original) {
   find_scales(input, ranges, original);
 }
 
-/// Renames merged vertices and leaves out the tets that have a vertex twice or one that is not used; the tets then are
-/// ours.
+/// These, with their numbers among the submitted ones, instead of those that the view has.
+void take_tets(Array<Tet> &&tets, Array<std::int32_t> &&numbers, Job &job, Original &original) {
+  original.tets = std::move(tets);
+  original.tet_number = std::move(numbers);
+  original.view.tets = original.tets;
+  original.left = find_used(original.view.tets, original.view.points.size(), job);
+}
+
+/// Renames merged vertices and leaves out the tets that have a vertex twice or one that is not used.
 void drop_and_rename(Span<const std::int32_t> representative, Job &job, Original &original) {
   Array<Tet> kept(&job.memory);
+  Array<std::int32_t> numbers(&job.memory);
   kept.reserve(original.view.tets.size());
-  original.tet_number.reserve(original.view.tets.size());
+  numbers.reserve(original.view.tets.size());
   for (std::size_t i = 0; i < original.view.tets.size(); i++) {
     if (i % block == 0) job.poll(0.9);
     const Tet &t = original.view.tets[i];
@@ -212,12 +220,10 @@ void drop_and_rename(Span<const std::int32_t> representative, Job &job, Original
     for (std::int32_t &v : renamed) v = representative[std::size_t(v)];
     if (has_repeated_vertex(renamed)) continue;
     kept.push_back(renamed);
-    original.tet_number.push_back(std::int32_t(i));
+    numbers.push_back(std::int32_t(i));
   }
   original.dropped_tets = std::int64_t(original.view.tets.size() - kept.size());
-  original.tets = std::move(kept);
-  original.view.tets = original.tets;
-  original.left = find_used(original.view.tets, original.view.points.size(), job);
+  take_tets(std::move(kept), std::move(numbers), job, original);
 }
 
 /// Returns what becomes of the box.
@@ -313,6 +319,30 @@ void prepare_original(const Input &input, const Options &options, Job &job, Orig
     fail(Status::mesh_empty, "none of the %lld tets has four different vertices with a value",
          static_cast<long long>(input.tets.tuples));
   measure(input, job, original);
+}
+
+void drop_excluded(const Input &input, Job &job, Boundary &boundary, Original &original) {
+  if (boundary.excluded.empty()) return;
+  Array<Tet> kept(&job.memory);
+  Array<std::int32_t> numbers(&job.memory), renamed = array_of(original.view.tets.size(), -1, job);
+  for (std::size_t t = 0; t < renamed.size(); t++) {
+    if (t % block == 0) job.poll(0.9);
+    if (boundary.excluded[t]) continue;
+    renamed[t] = std::int32_t(kept.size());
+    kept.push_back(original.view.tets[t]);
+    numbers.push_back(original.tet_number.empty() ? std::int32_t(t) : original.tet_number[t]);
+  }
+  take_tets(std::move(kept), std::move(numbers), job, original);
+  for (std::int32_t &t : boundary.tet_of) t = renamed[std::size_t(t)];
+  boundary.excluded.clear();
+  measure(input, job, original);
+}
+
+void prepare_with_boundary(const Input &input, const Options &options, Job &job, Original &original,
+                           Boundary &boundary) {
+  prepare_original(input, options, job, original);
+  extract_boundary(original.view, job, boundary, original.numbers());
+  drop_excluded(input, job, boundary, original);
 }
 
 bool renew_values(const Input &input, Job &job, Original &original) {

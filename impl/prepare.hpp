@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 
+#include "extract_boundary.hpp"
 #include "host_numbers.hpp"
 #include "job.hpp"
 #include "mesh.hpp"
@@ -48,8 +49,16 @@ int extreme_exponent(const Box &box);
 /// mesh_too_large.
 void prepare_original(const Input &input, const Options &options, Job &job, Original &original);
 
-/// The same of a mesh whose points, tets, flags and options are what they were, and other values. False: it takes
-/// prepare_original, because the values change what the mesh is, or are none.
+/// What the boundary of the view leaves out, flat tets that hang on it and those given twice, is dropped, and points
+/// that no other tet has are none of the mesh any more.
+void drop_excluded(const Input &input, Job &job, Boundary &boundary, Original &original);
+
+/// prepare_original, extract_boundary and drop_excluded.
+void prepare_with_boundary(const Input &input, const Options &options, Job &job, Original &original,
+                           Boundary &boundary);
+
+/// The same as prepare_original of a mesh whose points, tets, flags and options are what they were, and other values.
+/// False: it takes prepare_original, because the values change what the mesh is, or are none.
 bool renew_values(const Input &input, Job &job, Original &original);
 
 /// For a bound: throws Status::max_error where the errors of a field would be rounded away beside the scalars' range.

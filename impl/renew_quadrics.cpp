@@ -72,7 +72,6 @@ class QuadricRenewal {
   void add_tets(std::size_t begin, std::size_t end) {
     for (std::size_t t = 0; t < original_.tets.size(); t++) {
       if (t % 65536 == 0) job_.poll(0);
-      if (!boundary_.excluded.empty() && boundary_.excluded[t]) continue;
       const Tet &tet = original_.tets[t];
       std::size_t homes[4];
       bool any = false;

@@ -15,19 +15,6 @@ namespace {
 
 constexpr std::size_t poll_every = 65536;
 
-bool is_excluded(const Boundary &boundary, std::size_t t) { return !boundary.excluded.empty() && boundary.excluded[t]; }
-
-Array<std::int32_t> used_vertices(const MeshView &original, const Boundary &boundary, Job &job) {
-  Array<std::uint8_t> used(original.points.size(), 0, &job.memory);
-  for (std::int32_t v : boundary.interior) used[std::size_t(v)] = 1;
-  for (const Triangle &t : boundary.triangles)
-    for (std::int32_t v : t) used[std::size_t(v)] = 1;
-  Array<std::int32_t> vertices(&job.memory);
-  for (std::size_t v = 0; v < used.size(); v++)
-    if (used[v]) vertices.push_back(std::int32_t(v));
-  return vertices;
-}
-
 void order_vertices(const MeshView &original, Span<const std::int32_t> used, Job &job, SolidInOrder &solid) {
   const auto place = [&](std::size_t i) { return original.points[std::size_t(used[i])]; };
   solid.origin = order_by_place(used.size(), place, job);
@@ -38,13 +25,10 @@ void order_vertices(const MeshView &original, Span<const std::int32_t> used, Job
   }
 }
 
-/// Of each tet, with its vertices' new numbers; -1: it is excluded.
-Array<std::int32_t> first_vertices(const MeshView &original, const Boundary &boundary, Span<const std::int32_t> number,
-                                   Job &job) {
-  Array<std::int32_t> first = array_of(original.tets.size(), -1, job);
+/// Of each tet, with its vertices' new numbers.
+Array<std::int32_t> first_vertices(const MeshView &original, Span<const std::int32_t> number, Job &job) {
+  Array<std::int32_t> first = array_of(original.tets.size(), std::numeric_limits<std::int32_t>::max(), job);
   for_each(first.size(), job, [&](std::size_t t) {
-    if (is_excluded(boundary, t)) return;
-    first[t] = std::numeric_limits<std::int32_t>::max();
     for (std::int32_t v : original.tets[t]) first[t] = std::min(first[t], number[std::size_t(v)]);
   });
   return first;
@@ -58,9 +42,8 @@ Tet upright(Tet tet, Span<const std::int32_t> number, Span<const Vec3> points) {
 }
 
 /// By their first vertices; each thread those of some vertices.
-void order_tets(const MeshView &original, const Boundary &boundary, Span<const std::int32_t> number, Job &job,
-                SolidInOrder &solid) {
-  const Array<std::int32_t> first = first_vertices(original, boundary, number, job);
+void order_tets(const MeshView &original, Span<const std::int32_t> number, Job &job, SolidInOrder &solid) {
+  const Array<std::int32_t> first = first_vertices(original, number, job);
   Array<std::size_t> next(solid.points.size() + 1, 0, &job.memory);
   const auto for_tets = [&](const auto &visit) {
     job.parallel.for_parts(solid.points.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
@@ -82,10 +65,10 @@ void order_tets(const MeshView &original, const Boundary &boundary, Span<const s
 
 SolidInOrder put_in_order(const MeshView &original, const Boundary &boundary, Job &job) {
   SolidInOrder solid(job.memory);
-  order_vertices(original, used_vertices(original, boundary, job), job, solid);
+  order_vertices(original, used_vertices(original, job), job, solid);
   Array<std::int32_t> number(original.points.size(), -1, &job.memory);
   for (std::size_t v = 0; v < solid.origin.size(); v++) number[std::size_t(solid.origin[v])] = std::int32_t(v);
-  order_tets(original, boundary, number, job, solid);
+  order_tets(original, number, job, solid);
   solid.triangles.assign(boundary.triangles.begin(), boundary.triangles.end());
   for (Triangle &t : solid.triangles)
     for (std::int32_t &v : t) v = number[std::size_t(v)];

@@ -276,9 +276,8 @@ Error verdict_on(const Input &input, const Options &options, Job &job) {
   try {
     if (any_strict_policy(options)) refuse_defects(find_defects(input, options, job), options);
     Original original(job.memory);
-    prepare_original(input, options, job, original);
     Boundary boundary(job.memory);
-    extract_boundary(original.view, job, boundary, original.numbers());
+    prepare_with_boundary(input, options, job, original, boundary);
     Surface surface(job.memory);
     make_surface(original.view, boundary.triangles, job, surface);
     SurfaceTopology topology(job.memory);

@@ -66,6 +66,16 @@ inline Array<std::uint8_t> find_used(Span<const Tet> tets, std::size_t points, J
   return used;
 }
 
+/// The points that tets have, ascending. Others' coordinates and values may be no numbers.
+inline Array<std::int32_t> used_vertices(const MeshView &mesh, Job &job) {
+  const Array<std::uint8_t> used = find_used(mesh.tets, mesh.points.size(), job);
+  Array<std::int32_t> vertices(&job.memory);
+  vertices.reserve(used.size());
+  for (std::size_t v = 0; v < used.size(); v++)
+    if (used[v]) vertices.push_back(std::int32_t(v));
+  return vertices;
+}
+
 /// What add(part, i) makes of the items of each stretch of `count`, from `none` on.
 template <class T, class Add>
 Array<T> parts_of(std::size_t count, const T &none, Job &job, const Add &add) {

@@ -227,9 +227,11 @@ TEST(Outside, DeviationIsBoundedAtTheMiddlesOfDividedTriangles) {
   }
 }
 
-/// Elements that pad an array name a node far away, with a value that nobody meant.
+/// Elements that pad an array, or hang on the solid without a volume, name a node far away, with a value that nobody
+/// meant.
 TEST(Outside, ABoundIsOfWhatRepairsLeave) {
-  for (const bool later : {false, true}) {
+  for (const int kind : {0, 1, 2, 3}) {
+    const bool later = kind % 2 == 1, flat = kind / 2 == 1;
     Cube cube(6);
     for (std::size_t v = 0; v < cube.values.size(); v++) cube.values[v] = std::sin(5 * cube.xyz[3 * v]);
     const auto run = [&](tetlod_context *context) {
@@ -242,11 +244,21 @@ TEST(Outside, ABoundIsOfWhatRepairsLeave) {
       return report;
     };
     const Context sound = make_context(), padded = make_context();
+    const auto rms_of = [](tetlod_context *context) {
+      tetlod_error_report error{};
+      error.struct_size = sizeof error;
+      EXPECT_EQ(tetlod_measure_error(context, 1, &error), TETLOD_OK) << message_of(context);
+      return error.rms;
+    };
     const tetlod_run_report expected = run(sound.get());
+    const double rms = rms_of(sound.get());
     const auto padding = std::int32_t(cube.values.size());
-    cube.xyz.insert(cube.xyz.end(), {1000, 1000, 1000});
+    cube.xyz.insert(cube.xyz.end(), {1000, 1000, flat ? 0.0 : 1000.0});
     cube.values.push_back(1e6);
-    cube.corners.insert(cube.corners.end(), 4, padding);
+    if (flat)
+      cube.corners.insert(cube.corners.begin() + 40, {0, 1, 8, padding});
+    else
+      cube.corners.insert(cube.corners.end(), 4, padding);
     if (later) {  // other values before, so that the mesh is reused
       Cube other = cube;
       for (double &value : other.values) value *= 2;
@@ -259,6 +271,7 @@ TEST(Outside, ABoundIsOfWhatRepairsLeave) {
     EXPECT_EQ(report.scalar_max, expected.scalar_max);
     EXPECT_EQ(report.dropped_tets, 1);
     EXPECT_EQ(report.reused_tets > 0, later);
+    EXPECT_EQ(rms_of(padded.get()), rms);
   }
 }
 

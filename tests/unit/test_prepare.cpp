@@ -301,6 +301,44 @@ TEST_F(Prepare, PointsOfDroppedTetsAreNoneOfTheMesh) {
   EXPECT_FALSE(renew_values(input_of(mesh), host.job, original));
 }
 
+/// Flat tets that hang on the boundary, one on the other, and one that is given twice.
+TEST_F(Prepare, PointsOfTetsThatTheBoundaryLeavesOutAreNoneOfTheMesh) {
+  Mesh mesh = cube_for_floats();
+  const Mesh sound = mesh;
+  Boundary expected(host.memory);
+  extract_boundary(mesh.view(), host.job, expected);
+  const auto far = std::int32_t(mesh.points.size());
+  const Triangle face = *std::find_if(expected.triangles.begin(), expected.triangles.end(), [&](const Triangle &t) {
+    return std::all_of(t.begin(), t.end(), [&](std::int32_t v) { return mesh.points[std::size_t(v)].z == 0; });
+  });
+  for (double x : {1000, 2000}) mesh.points.push_back(Vec3(x, -x, 0));
+  mesh.scalars.insert(mesh.scalars.end(), {1e6, -1e6});
+  mesh.tets.insert(mesh.tets.begin() + 1, {face[0], face[1], face[2], far});
+  mesh.tets.insert(mesh.tets.begin() + 3, {face[0], face[1], far, far + 1});
+  mesh.tets.push_back(mesh.tets[0]);
+  Boundary boundary(host.memory);
+  prepare_with_boundary(input_of(mesh), {}, host.job, original, boundary);
+  const auto expect_that_of_the_cube = [&](double largest) {
+    EXPECT_EQ(original.scalar_min, -4);
+    EXPECT_EQ(original.scalar_max, largest);
+    EXPECT_EQ(original.box.low, Vec3(0));
+    EXPECT_EQ(original.box.high, Vec3(1));
+    ASSERT_EQ(original.view.tets.size(), sound.tets.size());
+    for (std::size_t t = 0; t < sound.tets.size(); t++) {
+      EXPECT_EQ(original.view.tets[t], sound.tets[t]);
+      EXPECT_EQ(mesh.tets[std::size_t(original.tet_number[t])], sound.tets[t]);
+    }
+  };
+  expect_that_of_the_cube(3);
+  EXPECT_EQ(boundary.flat_tets, 2);
+  EXPECT_EQ(boundary.duplicate_tets, 1);
+  EXPECT_EQ(boundary.triangles, expected.triangles);
+  EXPECT_EQ(boundary.tet_of, expected.tet_of);
+  *std::find(mesh.scalars.begin(), mesh.scalars.end(), 3) = 5;
+  EXPECT_TRUE(renew_values(input_of(mesh), host.job, original));
+  expect_that_of_the_cube(5);
+}
+
 /// The value that counts is that of the point that stays.
 TEST_F(Prepare, MergedPointsHaveOneValue) {
   Mesh mesh = cube_for_floats();
