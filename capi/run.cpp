@@ -96,7 +96,6 @@ tetlod_status tetlod_run(tetlod_context *handle) {
       run(context.input, context.options, context.worker, context.prepared, job, outcome->result);
       job.poll(1);  // who cancels before the end gets what was asked for
     });
-    outcome->result.report.peak_bytes = context.memory.peak();
     context.outcome = std::move(outcome);
   });
 }

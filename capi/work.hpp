@@ -1,5 +1,7 @@
 // What the functions that do work in a context have in common: a fresh start, and the job that listens to the host.
 #pragma once
+#include <new>
+
 #include "context.hpp"
 #include "job.hpp"
 #include "status.hpp"
@@ -32,8 +34,11 @@ void with_what_is_kept(tetlod_context &context, const Body &body) {
   };
   try {
     return call();
-  } catch (const Error &) {
-    if (!any_kept || !context.memory.take_shortage()) throw;
+  } catch (const Error &error) {
+    const bool is_shortage = error.status() == Status::memory || error.status() == Status::memory_limit;
+    if (!any_kept || !is_shortage || !context.memory.take_shortage()) throw;
+  } catch (const std::bad_alloc &) {  // of what takes its memory elsewhere
+    if (!any_kept) throw;
   }
   call();
 }

@@ -8,7 +8,8 @@
 namespace tetlod {
 
 struct Arena {
-  explicit Arena(int threads) : tasks(threads) {}
+  /// Throws where the system has no memory, or not so many threads.
+  explicit Arena(int threads);
   tbb::task_arena tasks;
 };
 

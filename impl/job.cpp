@@ -26,10 +26,10 @@ void Job::poll(double fraction) {
   }
   if (!progress) return;
   reached_ = std::max(reached_, std::clamp(fraction, 0.0, 1.0));
-  const Clock::time_point now = Clock::now();
-  if (now - last_call_ < progress_interval) return;
-  last_call_ = now;
-  if (progress(stage_, reached_)) fail(Status::cancelled, "cancelled by the progress callback");
+  if (Clock::now() - last_call_ < progress_interval) return;
+  const bool ends = progress(stage_, reached_);
+  last_call_ = Clock::now();  // or one that takes long would be called at every poll
+  if (ends) fail(Status::cancelled, "cancelled by the progress callback");
 }
 
 }  // namespace tetlod

@@ -125,7 +125,8 @@ class DeviationLowering {
     Array<Apart> largest(&job_.memory);
     for (std::size_t i = 0; i < of_sample_.size(); i++) largest.push_back({of_sample_[i], i});
     std::make_heap(largest.begin(), largest.end(), is_less);
-    for (;;) {
+    for (std::size_t turn = 1;; turn++) {
+      if (turn % 256 == 0) job_.poll(1);
       std::pop_heap(largest.begin(), largest.end(), is_less);
       Apart &last = largest.back();
       const double distance = to_mesh.nearest(original_.points[last.at]).distance;

@@ -77,13 +77,13 @@ std::int64_t merge_points(Span<const Vec3> points, Span<const std::uint8_t> used
   std::int64_t merged = 0;
   for (std::size_t i = 0; i < points.size(); i++) {
     const auto v = std::int32_t(i);
+    if (i % 4096 == 0) job.poll(double(i) / double(points.size()));
     representative[i] = v;
     if (!used[i]) continue;
     const std::int32_t found = tolerance > 0 ? find_near(table, points, v, tolerance) : find_equal(table, points, v);
     representative[i] = found;
     merged += found != v;
     if (found == v) table.insert(tolerance > 0 ? glm::floor(points[i] / tolerance) : points[i], v);
-    if (i % 4096 == 0) job.poll(double(i) / double(points.size()));
   }
   return merged;
 }

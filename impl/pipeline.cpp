@@ -67,8 +67,7 @@ class Pipeline {
   }
 
  private:
-  /// As the paper does, but for how it comes to its parameters: fills the boundary, decimated less where TetGen finds
-  /// no way.
+  /// As the paper does: fills the boundary, decimated less where TetGen finds no way.
   void simplify(Worker &worker) {
     while (!fill(worker)) {
       if (budget_.sigma >= 1) throw Error(Status::remesh, failure_);
@@ -109,6 +108,7 @@ class Pipeline {
   bool coarsen(Worker &worker) {
     CoarseSolid coarse(job_.memory);
     mesh_.tets.clear();
+    report_.reused_collapses = 0;
     if (collapses_edges(options_, report_)) {
       if (!collapse_edges(coarse)) remesh_to_target(worker);
     } else if (!remesh_to_target(worker) && options_.clean_edges == 0) {
@@ -149,7 +149,6 @@ class Pipeline {
     const std::string wrong =
         decimate_solid_and_check(original_.view, boundary_, prepared_.surface(job_), prepared_.topology(job_), options,
                                  sizes.lowered, history, job_, coarse);
-    report_.reused_collapses = coarse.reused;
     if (!wrong.empty() && job_.log) job_.log(1, ("edges collapsed in vain: " + wrong).c_str());
     return wrong.empty();
   }
@@ -159,6 +158,7 @@ class Pipeline {
     if (budget_.enough > 0) budget_.tets = std::int64_t(mesh_.tets.size());
     origin_ = std::move(coarse.origin);
     topology_ = std::move(coarse.topology);
+    report_.reused_collapses = coarse.reused;
     report_.max_deviation = coarse.deviation / original_.box.diagonal();
     describe_simplified_boundary(topology_, report_);
     describe_collapses(std::int64_t(mesh_.points.size()), report_);

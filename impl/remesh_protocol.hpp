@@ -15,6 +15,9 @@ constexpr int request_descriptor = 4;
 constexpr int response_descriptor = 5;
 constexpr int first_free_descriptor = 6;
 
+/// Status that the worker exits with before it greets, where the system has no thread that would watch the host.
+constexpr int no_thread = 4;
+
 constexpr std::uint32_t magic = 0x54455431;
 constexpr std::uint32_t version = 1;
 

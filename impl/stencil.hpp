@@ -17,7 +17,7 @@ struct Stencil {
 };
 
 /// The vertices of the tet that holds a point, or of the triangle of `boundary` that is nearest to one outside of
-/// every tet: three weights and a 0. `leaf` is of the k-d tree that finds them.
+/// every tet: three weights and a 0. `leaf`: as locate() has it.
 void find_stencils(const MeshView &mesh, Span<const Triangle> boundary, Span<const Vec3> points, std::int64_t leaf,
                    Job &job, Stencil &stencil);
 

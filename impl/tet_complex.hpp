@@ -66,15 +66,16 @@ class TetComplex {
   }
 
   /// The tets around an inner edge (a, b) of tet t and the ring of vertices, ring[i] and ring[i + 1] in tet i, so that
-  /// (a, b, ring[i], ring[i + 1]) is positive. False on the boundary and where there are more than the lists hold.
-  /// Or where visit(tet) says so of a tet.
+  /// (a, b, ring[i], ring[i + 1]) is positive. False on the boundary, where there are more than the lists hold, and
+  /// where visit(tet) is false of one.
   template <std::size_t most, class Visit>
   bool ring(std::int32_t t, std::int32_t a, std::int32_t b, Few<std::int32_t, most> &around,
             Few<std::int32_t, most> &vertices, const Visit &visit) const;
-  /// All tets of a vertex. False where there are more than a cavity holds.
+  /// All tets of a vertex.
   void star(std::int32_t v, Array<std::int32_t> &around) const { tets_with(tet_of[std::size_t(v)], &v, 1, around); }
+  /// False where there are more than a cavity holds.
   bool star(std::int32_t v, Cavity &around) const;
-  /// Only up to a tet of which visit(tet) says so: false then.
+  /// Only up to a tet of which visit(tet) is false: false then.
   template <class Visit>
   bool star(std::int32_t v, Array<std::int32_t> &around, const Visit &visit) const;
   /// All tets with the `size` vertices of a simplex, of which t is one.

@@ -107,6 +107,8 @@ void WorkerProcess::check_greeting(Answer answer, const protocol::Hello &hello, 
     const Ending ending = child_->end();
     output_.drain(*child_, job);
     output_.flush(job);
+    if (ending.known && !ending.by_signal && ending.status == protocol::no_thread)
+      fail(Status::memory, "the system has no thread for %s", path_.c_str());
     throw Error(Status::backend_missing, path_ + " ended with " + ending.text() + " before its greeting; " +
                                              (output_.last_line().empty() ? "it said nothing" : output_.last_line()));
   }

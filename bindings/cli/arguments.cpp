@@ -137,8 +137,9 @@ void add_options(CLI::App &app, Arguments &arguments) {
       ->take_all()
       ->allow_extra_args(false);  // what follows is INPUT or OUTPUT
   const auto preset = [&arguments](const std::string &name) { arguments.preset = preset_named(name); };
-  app.add_option_function<std::string>(
-         "--preset", preset, "sets the other options: paper, the default; fast or accurate, with a target ratio of 0.1")
+  app.add_option_function<std::string>("--preset", preset,
+                                       "sets the other options: paper, the default; fast or accurate, with a target "
+                                       "ratio of 0.1 unless there is a bound")
       ->type_name("NAME");
   for (const NumberOption &option : kNumberOptions) add_number(app, option, arguments);
   for (const NumberOption &option : kPolicyOptions) add_policy(app, option, arguments);

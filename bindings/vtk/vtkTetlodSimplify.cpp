@@ -77,7 +77,8 @@ void vtkTetlodSimplify::SetOption(const char *name, double value) {
   try {
     const int32_t option = option_named(name);
     const bool integer = is_integer(option);
-    if (integer && value != std::floor(value))
+    constexpr double largest_integer = 9007199254740992;  // up to which doubles have all
+    if (integer && !(std::abs(value) <= largest_integer && value == std::floor(value)))
       throw tetlod::Error(TETLOD_ERR_OPTION, std::string(name) + ": " + std::to_string(value) + " is not an integer");
     const double before = this->GetOption(name);
     if (integer)

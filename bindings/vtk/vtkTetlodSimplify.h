@@ -44,7 +44,7 @@ class VTKTETLOD_EXPORT vtkTetlodSimplify : public vtkUnstructuredGridAlgorithm {
 
   /**
    * Sets the other properties that a preset governs: as published, sized by Rho and Sigma (paper, the default), or
-   * sized by TargetRatio, which becomes 0.1 where it is 0 (fast, accurate).
+   * sized by TargetRatio, which becomes 0.1 where it and MaxError are 0 (fast, accurate).
    */
   void SetPreset(int preset);
   void SetPresetToPaper() { this->SetPreset(0); }

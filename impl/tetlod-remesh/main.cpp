@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // tetlod-remesh: runs TetGen for libtetlod in a process of its own, one call after the other, until the host is gone.
+#include <alloca.h>
 #include <malloc.h>
 #include <poll.h>
 #include <pthread.h>
@@ -59,11 +60,22 @@ void limit(__rlimit_resource resource, std::uint64_t bytes) {
   ::setrlimit(resource, &current);
 }
 
+/// As usual, as far as the host's limit allows; returns what it is.
+std::size_t raise_stack_limit() {
+  constexpr std::uint64_t usual = std::uint64_t(8) << 20;
+  rlimit current;
+  if (::getrlimit(RLIMIT_STACK, &current) != 0) return 0;
+  if (current.rlim_cur < usual) limit(RLIMIT_STACK, usual);
+  return ::getrlimit(RLIMIT_STACK, &current) == 0 ? std::size_t(current.rlim_cur) : 0;
+}
+
 /// As much stack as TetGen is likely to want: where all of the address space is used up, it could not grow any more,
 /// and that would be a crash.
 void grow_stack() {
-  volatile char stack[std::size_t(1) << 19];
-  for (std::size_t i = 0; i < sizeof stack; i += 1024) stack[i] = 0;
+  constexpr std::size_t wanted = std::size_t(1) << 19;
+  const std::size_t size = std::min(wanted, raise_stack_limit() / 2);
+  auto *const stack = static_cast<volatile char *>(alloca(size));
+  for (std::size_t i = 0; i < size; i += 1024) stack[i] = 0;
 }
 
 void limit_resources(std::uint64_t address_space) {
@@ -110,7 +122,7 @@ int main() {
   std::set_new_handler(worker::report_exhaustion);
   protocol::Start start;
   if (!worker::receive(&start, sizeof start) || start.magic != protocol::magic) return worker::explain();
-  if (!worker::start_watching(start.host_pid)) return 4;
+  if (!worker::start_watching(start.host_pid)) return protocol::no_thread;
   worker::limit_resources(start.address_space);
   worker::greet();
   protocol::Call call;

@@ -4,11 +4,9 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <random>
 #include <string>
 #include <vector>
 
-#include "merge_points.hpp"
 #include "meshes.hpp"
 #include "prepare.hpp"
 #include "status.hpp"
@@ -20,81 +18,6 @@ using namespace test;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-// Merging
-
-class MergePoints : public testing::Test {
- protected:
-  Host host;
-  std::vector<Vec3> points;
-  std::vector<std::uint8_t> used;
-  Array<std::int32_t> representative{&host.memory};
-
-  std::int64_t merge(double tolerance) {
-    if (used.empty()) used.assign(points.size(), 1);
-    return merge_points({points.data(), points.size()}, {used.data(), used.size()}, tolerance, host.job,
-                        representative);
-  }
-
-  void expect(const std::vector<std::int32_t> &expected) {
-    EXPECT_EQ(std::vector<std::int32_t>(representative.begin(), representative.end()), expected);
-  }
-
-  /// In the order of their numbers, every point joins the lowest one that stays and is near enough.
-  std::vector<std::int32_t> brute_force(double tolerance) const {
-    std::vector<std::int32_t> joined(points.size());
-    for (std::size_t i = 0; i < points.size(); i++) {
-      joined[i] = std::int32_t(i);
-      for (std::size_t j = 0; used[i] && j < i && joined[i] == std::int32_t(i); j++)
-        if (used[j] && joined[j] == std::int32_t(j) &&
-            (points[i] == points[j] || glm::dot(points[i] - points[j], points[i] - points[j]) <= tolerance * tolerance))
-          joined[i] = std::int32_t(j);
-    }
-    return joined;
-  }
-};
-
-TEST_F(MergePoints, SameCoordinates) {
-  points = {Vec3(1, 2, 3), Vec3(0.0), Vec3(1, 2, 3), Vec3(-0.0), Vec3(1, 2, std::nextafter(3.0, 4.0)), Vec3(1, 2, 3)};
-  EXPECT_EQ(merge(0), 3);
-  expect({0, 1, 0, 1, 4, 0});
-}
-
-TEST_F(MergePoints, UnusedStayOut) {
-  points.assign(4, Vec3(1));
-  used = {0, 1, 0, 1};
-  EXPECT_EQ(merge(0), 1);
-  expect({0, 1, 2, 1});
-  EXPECT_EQ(merge(0.1), 1);
-  expect({0, 1, 2, 1});
-}
-
-TEST_F(MergePoints, ChainsDoNotCollapse) {
-  for (int i = 0; i < 6; i++) points.push_back(Vec3(0.9 * i, 0, 0));
-  EXPECT_EQ(merge(1), 3);
-  expect({0, 0, 2, 2, 4, 4});
-}
-
-TEST_F(MergePoints, AgainstBruteForce) {
-  std::mt19937_64 random(1);
-  for (double tolerance : {0.0, 0.02, 0.1, 0.4, 5.0})
-    for (double shift : {0.0, -0.5, 1000.0}) {
-      std::uniform_real_distribution<double> uniform(shift, shift + 1);
-      points.clear();
-      for (int i = 0; i < 400; i++) points.push_back(Vec3(uniform(random), uniform(random), uniform(random)));
-      for (int i = 0; i < 100; i++) points[random() % 400] = points[random() % 400];
-      used.assign(points.size(), 1);
-      for (int i = 0; i < 20; i++) used[random() % 400] = 0;
-      const std::vector<std::int32_t> expected = brute_force(tolerance);
-      std::int64_t count = 0;
-      for (std::size_t i = 0; i < expected.size(); i++) count += expected[i] != std::int32_t(i);
-      EXPECT_EQ(merge(tolerance), count);
-      EXPECT_GT(count, 10);
-      expect(expected);
-    }
-}
-
-// The whole of preparing
 
 class Prepare : public testing::Test {
  protected:

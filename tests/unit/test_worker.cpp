@@ -237,6 +237,11 @@ TEST_F(WorkerTest, IsMissing) {
   use("/nonexistent/tetlod-remesh");
   EXPECT_EQ(thrown(), Status::backend_missing);
   EXPECT_EQ(message, "cannot execute /nonexistent/tetlod-remesh: No such file or directory");
+  std::string deep;
+  while (deep.size() < 700) deep += "/nonexistent";
+  use(deep.c_str());
+  EXPECT_EQ(thrown(), Status::backend_missing);
+  EXPECT_EQ(message, "cannot execute " + deep + ": No such file or directory");
   for (const char *path : {"/etc/passwd", "/tmp", "/bin/true", "/dev/null"}) {
     use(path);
     EXPECT_EQ(thrown(), Status::backend_missing) << path;
