@@ -32,8 +32,8 @@ TEST(Progress, ASlowCallbackIsNotCalledAgainAtOnce) {
   SlowHost host;
   tetlod_set_progress(context.get(), SlowHost::progress, &host);
   ASSERT_EQ(tetlod_run(context.get()), TETLOD_OK);
-  EXPECT_GT(host.calls, 8);
-  EXPECT_EQ(host.at_once, 0) << "of " << host.calls;
+  EXPECT_GT(host.calls, 10);
+  EXPECT_LT(host.at_once, 4) << "of " << host.calls << ": only where the same stage begins anew";
 }
 
 }  // namespace
