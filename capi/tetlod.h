@@ -438,7 +438,7 @@ TETLOD_API tetlod_status tetlod_run(tetlod_context *context);
 
 /* Estimates the field error of the last result [4], at the original vertices and at samples_per_tet (0 to 100) random
  * samples in each original tet. The input of the run must still be submitted.
- * TETLOD_ERR_STATE, TETLOD_ERR_STRUCT_SIZE, _MEMORY_LIMIT, _CANCELLED; if arrays changed, tetlod_run()'s of a mesh. */
+ * TETLOD_ERR_STATE, TETLOD_ERR_STRUCT_SIZE, _MEMORY_LIMIT, _CANCELLED; if arrays changed, _MESH_*. */
 TETLOD_API tetlod_status tetlod_measure_error(tetlod_context *context, int32_t samples_per_tet,
                                               tetlod_error_report *out);
 /* How many original (side 0) or result (side 1) vertices have a value in each of `bins` equal parts of the original's
@@ -475,7 +475,7 @@ TETLOD_API tetlod_status tetlod_fetch_field(const tetlod_context *context, const
  * lowest is named. The scalars of the result are not made from it where decimation placed a vertex.
  * It takes no time until it is asked for: unless the run carried a point field, the first call of this or of
  * tetlod_transfer for a result reads points, tets and scalars again, which must still be submitted then.
- * TETLOD_ERR_STATE: they are not. TETLOD_ERR_BUFFER_SIZE, _MEMORY_LIMIT, _CANCELLED; if they changed, as of a mesh. */
+ * TETLOD_ERR_STATE: they are not. TETLOD_ERR_BUFFER_SIZE, _MEMORY_LIMIT, _CANCELLED; if they changed, _MESH_*. */
 TETLOD_API tetlod_status tetlod_fetch_stencil(const tetlod_context *context, int32_t index_base, tetlod_array *ids,
                                               tetlod_array *weights);
 /* Moves any other point field (or the same at a later time) to the result by that stencil: simplified[i] = the mean of
