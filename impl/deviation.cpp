@@ -1,5 +1,7 @@
 #include "deviation.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace tetlod {
@@ -31,13 +33,13 @@ double largest_distance(const Surface &from, const Surface &to, Samples samples,
   const NearestTriangle nearest(to.points, to.triangles, leaf, job);
   Array<Vec3> points(&job.memory);
   for_samples(from, samples, job.memory, [&](const Vec3 &p, std::size_t) { points.push_back(p); });
-  Array<double> largest((points.size() + block - 1) / block, 0.0, &job.memory);
+  Array<double> largest2((points.size() + block - 1) / block, 0.0, &job.memory);
   job.parallel.for_blocks(points.size(), block, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; i++)
-      largest[begin / block] = std::max(largest[begin / block], nearest.nearest(points[i]).distance);
+    double &of_block = largest2[begin / block];
+    for (std::size_t i = begin; i < end; i++) of_block = nearest.larger_distance2(points[i], of_block);
     job.poll(0);
   });
-  return largest.empty() ? 0 : *std::max_element(largest.begin(), largest.end());
+  return largest2.empty() ? 0 : std::sqrt(*std::max_element(largest2.begin(), largest2.end()));
 }
 
 double distance2_to_spoke(const Star &star, std::size_t i, const Vec3 &p) {

@@ -24,26 +24,39 @@ NearestTriangle::NearestTriangle(Span<const Vec3> points, Span<const Triangle> t
 NearestPoint NearestTriangle::nearest(const Vec3 &p) const {
   NearestPoint best;
   double distance2 = std::numeric_limits<double>::infinity();
-  const auto weights_in = [&](std::int32_t t, Vec3 &at) {
-    const Triangle &corner = triangles_[std::size_t(t)];
-    const Vec3 &a = points_[std::size_t(corner[0])], &b = points_[std::size_t(corner[1])],
-               &c = points_[std::size_t(corner[2])];
-    const Vec3 w = nearest_in_triangle(p, a, b, c);
-    at = w.x * a + w.y * b + w.z * c;
-    return w;
-  };
   Vec3 at;
   best.triangle = tree_.nearest(p, distance2, [&](std::int32_t t) {
-    weights_in(t, at);
+    weights_in(t, p, at);
     return length2(at - p);
   });
   if (best.triangle < 0) {  // so far away that squares leave the range of doubles
     best.distance = std::numeric_limits<double>::infinity();
     return best;
   }
-  best.weights = weights_in(best.triangle, at);
+  best.weights = weights_in(best.triangle, p, at);
   best.distance = std::sqrt(distance2);
   return best;
+}
+
+double NearestTriangle::larger_distance2(const Vec3 &p, double known) const {
+  constexpr double no_more = -1;  // nothing is nearer, so that the search ends
+  double distance2 = std::numeric_limits<double>::infinity();
+  Vec3 at;
+  tree_.nearest(p, distance2, [&](std::int32_t t) {
+    weights_in(t, p, at);
+    const double found = length2(at - p);
+    return found > known ? found : no_more;
+  });
+  return std::max(distance2, known);
+}
+
+Vec3 NearestTriangle::weights_in(std::int32_t triangle, const Vec3 &p, Vec3 &at) const {
+  const Triangle &corner = triangles_[std::size_t(triangle)];
+  const Vec3 &a = points_[std::size_t(corner[0])], &b = points_[std::size_t(corner[1])],
+             &c = points_[std::size_t(corner[2])];
+  const Vec3 w = nearest_in_triangle(p, a, b, c);
+  at = w.x * a + w.y * b + w.z * c;
+  return w;
 }
 
 SurfaceDistance::SurfaceDistance(const Surface &surface, const SurfaceTopology &topology, std::int64_t leaf, Job &job)

@@ -20,8 +20,13 @@ class NearestTriangle {
  public:
   NearestTriangle(Span<const Vec3> points, Span<const Triangle> triangles, std::int64_t leaf, Job &job);
   NearestPoint nearest(const Vec3 &p) const;
+  /// The square of the distance to it, where that is more than `known`; else `known`, sooner.
+  double larger_distance2(const Vec3 &p, double known) const;
 
  private:
+  /// Barycentric, of the point of a triangle that is nearest to p, which comes to be `at`.
+  Vec3 weights_in(std::int32_t triangle, const Vec3 &p, Vec3 &at) const;
+
   Span<const Vec3> points_;
   Span<const Triangle> triangles_;
   KdTree tree_;
