@@ -9,9 +9,6 @@ namespace tetlod {
 
 namespace {
 
-/// A point this far out of a tet, in barycentric weight, is out by rounding; so far, at most, it is out of its box.
-constexpr double rounding = 1e-6, out_of_box = 3 * rounding;
-
 template <std::size_t m>
 class OutsideVertices {
  public:
@@ -44,7 +41,7 @@ class OutsideVertices {
     Array<Triangle> faces(&job_.memory);
     Array<std::int32_t> tet_of_face(&job_.memory);
     mesh_.find_boundary(faces, tet_of_face);
-    const NearestTriangle boundary(mesh_.points, faces, 8, job_);
+    const TriangleTree boundary(mesh_.points, faces, 8, job_);
     Array<std::uint8_t> beyond(probes_.size(), 0, &job_.memory);
     for_each(probes_.size(), job_, [&](std::size_t k) {
       const NearestPoint at = boundary.nearest(place(k));
@@ -65,11 +62,7 @@ class OutsideVertices {
     return parts_of(mesh_.tets.size(), none, job_, [&](Array<std::int32_t> &beyond, std::size_t t) {
       if (!mesh_.alive(std::int32_t(t))) return;
       const Tet &tet = mesh_.tets[t];
-      Box box = box_of<4>(mesh_.points, tet);
-      const Vec3 margin = out_of_box * (box.high - box.low);
-      box.low -= margin;
-      box.high += margin;
-      tree.any_overlap(box, [&](std::int32_t k) {
+      tree.any_overlap(with_rounding(box_of<4>(mesh_.points, tet)), [&](std::int32_t k) {
         double w[4];
         if (holds(tet, place(std::size_t(k)), w) && is_beyond(std::size_t(k), tet, w)) beyond.push_back(k);
         return false;
@@ -80,7 +73,7 @@ class OutsideVertices {
   bool holds(const Tet &t, const Vec3 &p, double w[4]) const {
     const auto corner = [&](std::size_t k) -> const Vec3 & { return mesh_.points[std::size_t(t[k])]; };
     return barycentric(p, corner(0), corner(1), corner(2), corner(3), w) &&
-           std::min({w[0], w[1], w[2], w[3]}) > -rounding;
+           std::min({w[0], w[1], w[2], w[3]}) > -out_by_rounding;
   }
 
   const MeshView &original_;

@@ -3,7 +3,6 @@
 #pragma once
 #include <sys/types.h>
 
-#include <cstdint>
 #include <string>
 
 namespace tetlod {

@@ -30,7 +30,7 @@ void for_samples(const Surface &surface, Samples samples, Memory &memory, const 
 }
 
 double largest_distance(const Surface &from, const Surface &to, Samples samples, Job &job) {
-  const NearestTriangle nearest(to.points, to.triangles, leaf, job);
+  const TriangleTree nearest(to.points, to.triangles, leaf, job);
   Array<Vec3> points(&job.memory);
   for_samples(from, samples, job.memory, [&](const Vec3 &p, std::size_t) { points.push_back(p); });
   Array<double> largest2((points.size() + block - 1) / block, 0.0, &job.memory);

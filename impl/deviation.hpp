@@ -34,7 +34,7 @@ class DeviationLimit {
   bool is_far(const Vec3 &p) const;
 
   double limit_;
-  NearestTriangle nearest_;
+  TriangleTree nearest_;
   Array<Vec3> samples_;                                 // of the original
   Array<std::int32_t> first_, next_;                    // lists of them, by triangle
   Array<std::pair<std::int32_t, std::int32_t>> homes_;  // of the collapse looked at last: sample, triangle

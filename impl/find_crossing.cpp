@@ -2,7 +2,6 @@
 
 #include <array>
 
-#include "geometry.hpp"
 #include "host_numbers.hpp"
 #include "kd_tree.hpp"
 #include "predicates.hpp"

@@ -106,21 +106,21 @@ class FlipFinder {
 }  // namespace
 
 template <std::size_t m>
-std::int64_t flip_tets(double price, Job &job, AdaptiveMesh<m> &mesh) {
+void flip_tets(double price, Job &job, AdaptiveMesh<m> &mesh) {
   const double least = quiet * mesh.total_error() / double(mesh.count());
   Array<std::int32_t> items(&job.memory), made(&job.memory);
   for (std::size_t t = 0; t < mesh.tets.size(); t++)
     if (mesh.alive(std::int32_t(t)) && mesh.error[t] >= least) items.push_back(std::int32_t(t));
   const FlipFinder finder(price, mesh);
-  return sweep<Flip>(
+  sweep<Flip>(
       items, batches_of(items.size(), 512, job.memory), job, mesh,
       [&](std::int32_t t, Flip &flip) { return finder.find(t, flip); },
       [&](const Flip &flip) { mesh.replace(flip.old, flip.fresh, made); });
 }
 
-template std::int64_t flip_tets(double, Job &, AdaptiveMesh<1> &);
-template std::int64_t flip_tets(double, Job &, AdaptiveMesh<2> &);
-template std::int64_t flip_tets(double, Job &, AdaptiveMesh<3> &);
-template std::int64_t flip_tets(double, Job &, AdaptiveMesh<4> &);
+template void flip_tets(double, Job &, AdaptiveMesh<1> &);
+template void flip_tets(double, Job &, AdaptiveMesh<2> &);
+template void flip_tets(double, Job &, AdaptiveMesh<3> &);
+template void flip_tets(double, Job &, AdaptiveMesh<4> &);
 
 }  // namespace tetlod

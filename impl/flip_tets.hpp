@@ -7,8 +7,8 @@ namespace tetlod {
 
 /// One sweep of face removals (2-3) and edge removals (3-2, 4-4, 5-6) over the tets that have an error. A flip is taken
 /// when it lowers the sum of squares by more than `price` for every tet that it adds; one that saves a tet may raise it
-/// by as much. Returns how many were taken.
+/// by as much.
 template <std::size_t m>
-std::int64_t flip_tets(double price, Job &job, AdaptiveMesh<m> &mesh);
+void flip_tets(double price, Job &job, AdaptiveMesh<m> &mesh);
 
 }  // namespace tetlod

@@ -23,6 +23,8 @@ inline Vec3 times_power_of_two(const Vec3 &p, int exponent) {
   return {std::ldexp(p.x, exponent), std::ldexp(p.y, exponent), std::ldexp(p.z, exponent)};
 }
 
+inline bool is_finite(const Vec3 &p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+
 inline double length2(const Vec3 &v) { return glm::dot(v, v); }
 
 /// 1 for an equilateral triangle, 0 for a degenerate one: 4 sqrt(3) area / sum of squared edges.
@@ -61,6 +63,15 @@ inline double winding_share(const Vec3 &p, const Vec3 &x, const Vec3 &y, const V
   const double above = glm::dot(a, glm::cross(b, c));
   const double below = la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb;
   return std::atan2(above, below) / two_pi;
+}
+
+/// A point this far out of a tet, in barycentric weight, is out of it by rounding.
+constexpr double out_by_rounding = 1e-6;
+
+/// The box of a tet, given its own, with the points that are out of it by rounding: three weights may be.
+inline Box with_rounding(const Box &own) {
+  const Vec3 margin = 3 * out_by_rounding * (own.high - own.low);
+  return {own.low - margin, own.high + margin};
 }
 
 /// Barycentric weights of p in a tet of either winding; false for a tet without volume, which has none.

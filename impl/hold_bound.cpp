@@ -1,7 +1,6 @@
 #include "hold_bound.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "flip_tets.hpp"
 #include "give_way.hpp"

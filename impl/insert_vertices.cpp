@@ -163,12 +163,11 @@ bool insert_vertex(std::int32_t t, const Vec3 &p, const Values<m> &values, doubl
 }
 
 template <std::size_t m>
-std::int64_t insert_vertices(std::int64_t tets, Job &job, AdaptiveMesh<m> &mesh) {
+void insert_vertices(std::int64_t tets, Job &job, AdaptiveMesh<m> &mesh) {
   Array<std::int32_t> worst(&job.memory);
   for (std::size_t t = 0; t < mesh.tets.size(); t++)
     if (mesh.alive(std::int32_t(t)) && mesh.error[t] > 0) worst.push_back(std::int32_t(t));
   const auto nearly = std::int64_t(mesh.count()) + tets - 1;  // each brings two or three
-  std::int64_t inserted = 0;
   for (std::size_t i = 0, sorted = 0; i < worst.size() && std::int64_t(mesh.count()) < nearly; i++) {
     if (i % 64 == 0) job.poll(0.5);
     if (i == sorted) sorted = sort_worst(mesh, sorted, sorted + std::size_t(tets), job, worst);
@@ -183,15 +182,14 @@ std::int64_t insert_vertices(std::int64_t tets, Job &job, AdaptiveMesh<m> &mesh)
       const Vec3 middle = 0.25 * (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2) + mesh.corner(t, 3));
       p += (near_face - least) / (0.25 - least) * (middle - p);
     }
-    inserted += insert_vertex(t, p, values_at(mesh, t, p), to_boundary ? near_face : 0, least_shape, mesh);
+    insert_vertex(t, p, values_at(mesh, t, p), to_boundary ? near_face : 0, least_shape, mesh);
   }
-  return inserted;
 }
 
-template std::int64_t insert_vertices(std::int64_t, Job &, AdaptiveMesh<1> &);
-template std::int64_t insert_vertices(std::int64_t, Job &, AdaptiveMesh<2> &);
-template std::int64_t insert_vertices(std::int64_t, Job &, AdaptiveMesh<3> &);
-template std::int64_t insert_vertices(std::int64_t, Job &, AdaptiveMesh<4> &);
+template void insert_vertices(std::int64_t, Job &, AdaptiveMesh<1> &);
+template void insert_vertices(std::int64_t, Job &, AdaptiveMesh<2> &);
+template void insert_vertices(std::int64_t, Job &, AdaptiveMesh<3> &);
+template void insert_vertices(std::int64_t, Job &, AdaptiveMesh<4> &);
 template bool insert_vertex(std::int32_t, const Vec3 &, const Values<1> &, double, double, AdaptiveMesh<1> &);
 template bool insert_vertex(std::int32_t, const Vec3 &, const Values<2> &, double, double, AdaptiveMesh<2> &);
 template bool insert_vertex(std::int32_t, const Vec3 &, const Values<3> &, double, double, AdaptiveMesh<3> &);

@@ -9,10 +9,9 @@ namespace tetlod {
 constexpr std::int64_t tets_a_vertex = 3;
 
 /// Splits the tets of largest error, each at the centre of its squared residuals, until `tets` more are there or none
-/// with an error is left. A centre near a face of the boundary goes onto it: the shape of the mesh stays. Returns how
-/// many vertices were inserted; their numbers are the last ones.
+/// with an error is left. A centre near a face of the boundary goes onto it: the shape of the mesh stays.
 template <std::size_t m>
-std::int64_t insert_vertices(std::int64_t tets, Job &job, AdaptiveMesh<m> &mesh);
+void insert_vertices(std::int64_t tets, Job &job, AdaptiveMesh<m> &mesh);
 
 /// Makes p, which lies in tet t, a vertex with these values. Corners of t with a weight below `snap` do not count: p
 /// goes onto the face or edge of the others, and all tets there are divided. False where it would coincide with a

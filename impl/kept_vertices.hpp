@@ -1,7 +1,6 @@
 // Which original vertices keep place and values: as the host's flags say, and those of the boundary that are restored
 // because a bound does not hold without them.
 #pragma once
-#include "job.hpp"
 #include "mesh.hpp"
 #include "status.hpp"
 #include "tet_complex.hpp"

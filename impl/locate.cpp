@@ -8,8 +8,6 @@ namespace tetlod {
 
 namespace {
 
-/// A point this far out of a tet, in barycentric weight, is out by rounding.
-constexpr double rounding = 1e-6;
 constexpr std::size_t tets_in_block = 1 << 12, points_in_block = 1 << 8;
 
 Box box_at(const Vec3 &p) { return {p, p}; }
@@ -80,7 +78,7 @@ class PointTree {
     if (!find_weights(mesh_, mesh_.tets[t], points_[std::size_t(i)], w)) return;
     const auto [least, most] = std::minmax({w[0], w[1], w[2], w[3]});
     const bool vertex = least == 0 && most == 1;
-    if (least > -rounding) hits.push_back({i, std::int32_t(t), vertex ? 1 : least});
+    if (least > -out_by_rounding) hits.push_back({i, std::int32_t(t), vertex ? 1 : least});
   }
 
   const MeshView &mesh_;
@@ -102,7 +100,7 @@ Array<std::int32_t> find_tets(const MeshView &mesh, Span<const Vec3> points, std
     job.poll(0.5 * double(end) / double(mesh.tets.size()));
   });
   Array<std::int32_t> tets(points.size(), -1, &job.memory);
-  Array<double> depth(points.size(), -rounding, &job.memory);
+  Array<double> depth(points.size(), -out_by_rounding, &job.memory);
   for (const Array<Hit> &block : hits)
     for (const Hit &hit : block)
       if (const auto i = std::size_t(hit.point); hit.depth > depth[i]) {
@@ -119,7 +117,7 @@ void settle(std::array<double, 4> &weights) {
   for (double &w : weights) w /= total;
 }
 
-void find_on_boundary(const NearestTriangle &boundary, const Vec3 &p, Place &place) {
+void find_on_boundary(const TriangleTree &boundary, const Vec3 &p, Place &place) {
   const NearestPoint at = boundary.nearest(p);
   place.triangle = at.triangle;
   place.weights = {at.weights.x, at.weights.y, at.weights.z, 0};
@@ -143,7 +141,7 @@ void locate(const MeshView &mesh, Span<const Triangle> boundary, Span<const Vec3
     job.poll(0.5 + 0.4 * double(end) / double(points.size()));
   });
   if (std::all_of(places.begin(), places.end(), [](const Place &place) { return place.tet >= 0; })) return;
-  const NearestTriangle nearest(mesh.points, boundary, 8, job);
+  const TriangleTree nearest(mesh.points, boundary, 8, job);
   job.parallel.for_blocks(points.size(), points_in_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; i++)
       if (places[i].tet < 0) find_on_boundary(nearest, points[i], places[i]);

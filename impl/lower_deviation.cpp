@@ -105,7 +105,7 @@ class DeviationLowering {
   double shape2_of(const Tet &t) const { return shape2(point(t, 0), point(t, 1), point(t, 2), point(t, 3)); }
 
   void measure_samples() {
-    const NearestTriangle to_mesh(mesh_.points, mesh_.boundary, leaf, job_);
+    const TriangleTree to_mesh(mesh_.points, mesh_.boundary, leaf, job_);
     job_.parallel.for_blocks(vertices(), block, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; i++) {
         const NearestPoint nearest = to_mesh.nearest(original_.points[i]);
@@ -121,7 +121,7 @@ class DeviationLowering {
   /// Those that stayed where they were may be nearer to what has changed: the largest are looked at again.
   double largest_of_samples() {
     const auto is_less = [](const Apart &a, const Apart &b) { return b < a; };
-    const NearestTriangle to_mesh(mesh_.points, mesh_.boundary, leaf, job_);
+    const TriangleTree to_mesh(mesh_.points, mesh_.boundary, leaf, job_);
     Array<Apart> largest(&job_.memory);
     for (std::size_t i = 0; i < of_sample_.size(); i++) largest.push_back({of_sample_[i], i});
     std::make_heap(largest.begin(), largest.end(), is_less);
@@ -377,7 +377,7 @@ class DeviationLowering {
   TetMesh &mesh_;
   Array<std::int32_t> &origin_;
   double least_;
-  NearestTriangle to_original_;
+  TriangleTree to_original_;
   Array<double> of_sample_, of_vertex_;      // distances, of the original's vertices and the mesh's
   Array<std::int32_t> first_, next_, home_;  // lists of the original's vertices, by nearest triangle
   std::size_t most_ = 0;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "geometry.hpp"
+#include "hash.hpp"
 #include "kd_tree.hpp"
 #include "prepare.hpp"
 #include "whole_arrays.hpp"
@@ -11,8 +12,6 @@ namespace tetlod {
 
 namespace {
 
-/// A point this far out of a tet, in barycentric weight, still belongs to it.
-constexpr double tolerance = 1e-6;
 constexpr std::size_t block = 512;
 
 /// The result's piecewise linear field.
@@ -20,17 +19,12 @@ class Field {
  public:
   Field(const TetMesh &mesh, Job &job) : mesh_(mesh), tree_(job.memory) {
     Array<Box> boxes(mesh.tets.size(), &job.memory);
-    for (std::size_t t = 0; t < boxes.size(); t++) {
-      boxes[t] = box_of<4>(mesh.points, mesh.tets[t]);
-      const Vec3 margin = tolerance * (boxes[t].high - boxes[t].low);
-      boxes[t].low -= margin;
-      boxes[t].high += margin;
-    }
+    for (std::size_t t = 0; t < boxes.size(); t++) boxes[t] = with_rounding(box_of<4>(mesh.points, mesh.tets[t]));
     tree_.build(std::move(boxes), 4, job);
   }
 
   bool value_at(const Vec3 &p, double &value) const {
-    double best = -tolerance;
+    double best = -out_by_rounding;
     bool found = false;
     tree_.any_overlap({p, p}, [&](std::int32_t item) {
       const Tet &t = mesh_.tets[std::size_t(item)];
@@ -106,13 +100,7 @@ Tally tally_blocks(std::size_t count, Job &job, double begin_fraction, const Add
 }
 
 /// Uniform in (0, 1], a number for each key: no state, so any thread may ask for any sample.
-double random_unit(std::uint64_t key) {
-  key += 0x9e3779b97f4a7c15u;
-  key = (key ^ (key >> 30)) * 0xbf58476d1ce4e5b9u;
-  key = (key ^ (key >> 27)) * 0x94d049bb133111ebu;
-  key ^= key >> 31;
-  return double((key >> 11) + 1) * 0x1p-53;
-}
+double random_unit(std::uint64_t key) { return double((scrambled(key + 0x9e3779b97f4a7c15u) >> 11) + 1) * 0x1p-53; }
 
 /// A uniform sample of a tet: exponential variates, normalised.
 void add_sample(const MeshView &mesh, std::size_t tet, std::uint64_t key, const Field &field, double unit,

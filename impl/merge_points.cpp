@@ -1,6 +1,5 @@
 #include "merge_points.hpp"
 
-#include <cmath>
 #include <cstring>
 
 #include "geometry.hpp"

@@ -203,7 +203,7 @@ void make_move(const Move<m> &move, AdaptiveMesh<m> &mesh) {
 }  // namespace
 
 template <std::size_t m>
-std::int64_t move_vertices(std::size_t first, Job &job, AdaptiveMesh<m> &mesh) {
+void move_vertices(std::size_t first, Job &job, AdaptiveMesh<m> &mesh) {
   Array<std::int32_t> items(&job.memory);
   for (std::size_t v = first; v < mesh.points.size(); v++)
     if (!mesh.fixed[v] && !mesh.kept[v] && mesh.tet_of[v] >= 0) items.push_back(std::int32_t(v));
@@ -211,14 +211,14 @@ std::int64_t move_vertices(std::size_t first, Job &job, AdaptiveMesh<m> &mesh) {
   const StarLists tets(Span<const Tet>(mesh.tets), mesh.points.size(), job);
   const Array<std::size_t> batches = batches_apart(mesh, tets, job, items);
   const MoveFinder<m> finder(tets, quiet * 4 * mesh.total_error() / double(mesh.points.size()), mesh);
-  return sweep<Move<m>>(
+  sweep<Move<m>>(
       items, batches, job, mesh, [&](std::int32_t v, Move<m> &move) { return finder.find(v, move); },
       [&](const Move<m> &move) { make_move(move, mesh); });
 }
 
-template std::int64_t move_vertices(std::size_t, Job &, AdaptiveMesh<1> &);
-template std::int64_t move_vertices(std::size_t, Job &, AdaptiveMesh<2> &);
-template std::int64_t move_vertices(std::size_t, Job &, AdaptiveMesh<3> &);
-template std::int64_t move_vertices(std::size_t, Job &, AdaptiveMesh<4> &);
+template void move_vertices(std::size_t, Job &, AdaptiveMesh<1> &);
+template void move_vertices(std::size_t, Job &, AdaptiveMesh<2> &);
+template void move_vertices(std::size_t, Job &, AdaptiveMesh<3> &);
+template void move_vertices(std::size_t, Job &, AdaptiveMesh<4> &);
 
 }  // namespace tetlod

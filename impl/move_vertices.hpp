@@ -6,8 +6,8 @@
 namespace tetlod {
 
 /// One Gauss-Newton step on (x, y, z, values) for each inner vertex from number `first` on, shortened where a tet would
-/// turn over or nothing is gained. Returns how many moved.
+/// turn over or nothing is gained.
 template <std::size_t m>
-std::int64_t move_vertices(std::size_t first, Job &job, AdaptiveMesh<m> &mesh);
+void move_vertices(std::size_t first, Job &job, AdaptiveMesh<m> &mesh);
 
 }  // namespace tetlod

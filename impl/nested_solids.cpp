@@ -4,9 +4,8 @@
 
 #include "geometry.hpp"
 #include "host_numbers.hpp"
-#include "kd_tree.hpp"
-#include "ray.hpp"
 #include "status.hpp"
+#include "surface_distance.hpp"
 
 namespace tetlod {
 
@@ -15,12 +14,11 @@ namespace {
 class Nesting {
  public:
   Nesting(const Surface &surface, const SurfaceTopology &topology, Job &job)
-      : surface_(surface), job_(job), widest_(std::size_t(topology.components), -1, &job.memory), tree_(job.memory) {
+      : surface_(surface),
+        job_(job),
+        widest_(std::size_t(topology.components), -1, &job.memory),
+        tree_(surface.points, surface.triangles, 8, job) {
     find_widest(topology);
-    Array<Box> boxes(&job.memory);
-    boxes.reserve(surface.triangles.size());
-    for (const Triangle &t : surface.triangles) boxes.push_back(box_of(surface.points, t));
-    tree_.build(std::move(boxes), 8, job, 1);
   }
 
   /// A triangle of a component that lies in another's material; -1: there is none.
@@ -53,15 +51,7 @@ class Nesting {
   /// A ray to the triangle comes out of material where that is behind it, and out of none otherwise. Exact, but that
   /// the middle is rounded.
   bool is_sound_by_ray(std::int32_t triangle) const {
-    const Vec3 p = middle(triangle);
-    int depth = 0;
-    const bool meets = tree_.any_overlap(ray_to(p, tree_.box()), [&](std::int32_t other) {
-      if (other == triangle) return false;
-      const RayEnd end = end_of_ray(point(other, 0), point(other, 1), point(other, 2), p);
-      depth += int(end == RayEnd::entered) - int(end == RayEnd::left);
-      return end == RayEnd::at;
-    });
-    return !meets && depth == int(normal(triangle).x > 0);
+    return tree_.depth(middle(triangle), triangle) == int(normal(triangle).x > 0);
   }
 
   /// The winding number in the middle of a triangle is one half where material is on one side and none on the other.
@@ -77,7 +67,7 @@ class Nesting {
   const Surface &surface_;
   Job &job_;
   Array<std::int32_t> widest_;
-  KdTree tree_;
+  TriangleTree tree_;
 };
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "decimate_boundary.hpp"
 #include "job.hpp"
 #include "mesh.hpp"
 #include "remesh.hpp"

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "hash.hpp"
 #include "kd_tree.hpp"
 #include "sort_by_place.hpp"
 #include "surface_distance.hpp"
@@ -13,8 +14,6 @@ namespace tetlod {
 
 namespace {
 
-/// A point this far out of a tet, in barycentric weight, still belongs to it.
-constexpr double tolerance = 1e-6;
 /// Probes inside a tet of the original: so many for every tet, and so many times its share of the field's changes; more
 /// of both for a small mesh, whose vertices alone would say too little of what is between them.
 constexpr double everywhere = 0.14, by_change = 0.42, small_mesh = 1e5, most_for_small = 1.6;
@@ -26,12 +25,7 @@ constexpr std::size_t block = 1024;
 constexpr int longest_walk = 200;
 
 /// Uniform in [0, 1), a number for each key.
-double random_unit(std::uint64_t key) {
-  key = (key + 1) * 0x9e3779b97f4a7c15u;
-  key = (key ^ (key >> 30)) * 0xbf58476d1ce4e5b9u;
-  key = (key ^ (key >> 27)) * 0x94d049bb133111ebu;
-  return double((key ^ (key >> 31)) >> 11) * 0x1p-53;
-}
+double random_unit(std::uint64_t key) { return double(scrambled((key + 1) * 0x9e3779b97f4a7c15u) >> 11) * 0x1p-53; }
 
 /// Of the values at the corners of t.
 template <std::size_t m>
@@ -204,10 +198,7 @@ class Locator {
 
   void add(std::int32_t t, Box &box) {
     frames_[std::size_t(t)] = mesh_.frame(t);
-    const Box own = box_of<4>(mesh_.points, mesh_.tets[std::size_t(t)]);
-    const Vec3 margin = tolerance * (own.high - own.low);
-    box.add(own.low - margin);
-    box.add(own.high + margin);
+    box.add(with_rounding(box_of<4>(mesh_.points, mesh_.tets[std::size_t(t)])));
   }
 
   std::int32_t walk(const Vec3 &p, std::int32_t t) const {
@@ -216,14 +207,14 @@ class Locator {
       const double least = frames_[std::size_t(t)].weights(p, w);
       if (least >= 0) return t;
       const std::int32_t next = mesh_.neighbours[std::size_t(t)][std::size_t(std::min_element(w, w + 4) - w)];
-      if (next < 0) return least >= -tolerance ? t : -1;
+      if (next < 0) return least >= -out_by_rounding ? t : -1;
       t = next;
     }
     return -1;
   }
 
   std::int32_t search(const Vec3 &p) const {
-    double best = -tolerance;
+    double best = -out_by_rounding;
     std::int32_t found = -1;
     tree_.any_overlap({p, p}, [&](std::int32_t item) {
       const std::size_t first = std::size_t(item) * together_;
@@ -250,8 +241,7 @@ class Locator {
 
 /// The nearest point of the boundary, of a point that was found in no tet (t is -1), or a little outside of tet t, and
 /// of all, as that point is no farther off. Where it is farther, rounding has left a gap between tets: none then.
-NearestPoint nearest_if_outside(const TetComplex &mesh, std::int32_t t, const Vec3 &p,
-                                const NearestTriangle &boundary) {
+NearestPoint nearest_if_outside(const TetComplex &mesh, std::int32_t t, const Vec3 &p, const TriangleTree &boundary) {
   constexpr double slack = 2;
   if (t < 0) return boundary.nearest(p);
   double w[4];
@@ -268,7 +258,7 @@ void project(Job &job, Array<std::int32_t> &home, AdaptiveMesh<m> &mesh) {
   Array<Triangle> faces(&job.memory);
   Array<std::int32_t> tet_of_face(&job.memory);
   mesh.find_boundary(faces, tet_of_face);
-  const NearestTriangle boundary(mesh.points, faces, 8, job);
+  const TriangleTree boundary(mesh.points, faces, 8, job);
   mesh.outside.assign(mesh.vertex_probes, 0);
   job.parallel.for_blocks(mesh.vertex_probes, block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; i++) {
@@ -349,7 +339,7 @@ std::size_t expected_probes(const MeshView &original, const ProbeOptions &option
 }
 
 template <std::size_t m>
-std::int64_t place_probes(const MeshView &original, const ProbeOptions &options, Job &job, AdaptiveMesh<m> &mesh) {
+void place_probes(const MeshView &original, const ProbeOptions &options, Job &job, AdaptiveMesh<m> &mesh) {
   mesh.probes.clear();
   mesh.vertex_of_probe.clear();
   mesh.outside.clear();
@@ -358,7 +348,6 @@ std::int64_t place_probes(const MeshView &original, const ProbeOptions &options,
   mesh.vertex_probes = mesh.probes.size();
   if (options.most_inner > 0) add_inner(original, options.most_inner, job, mesh.probes);
   Array<std::int32_t> home = find_homes(job, mesh);
-  const auto outside = std::count(home.begin(), home.begin() + std::ptrdiff_t(mesh.vertex_probes), -1);
   if (options.project_outside) project(job, home, mesh);
   const Array<std::int32_t> places = sort_by_home(0, mesh.vertex_probes, job, mesh, home);
   put_in_places(places, 0, job, mesh.vertex_of_probe);
@@ -376,12 +365,11 @@ std::int64_t place_probes(const MeshView &original, const ProbeOptions &options,
       if (mesh.alive(std::int32_t(t))) mesh.measure(std::int32_t(t));
     job.poll(0.2);
   });
-  return outside;
 }
 
-template std::int64_t place_probes(const MeshView &, const ProbeOptions &, Job &, AdaptiveMesh<1> &);
-template std::int64_t place_probes(const MeshView &, const ProbeOptions &, Job &, AdaptiveMesh<2> &);
-template std::int64_t place_probes(const MeshView &, const ProbeOptions &, Job &, AdaptiveMesh<3> &);
-template std::int64_t place_probes(const MeshView &, const ProbeOptions &, Job &, AdaptiveMesh<4> &);
+template void place_probes(const MeshView &, const ProbeOptions &, Job &, AdaptiveMesh<1> &);
+template void place_probes(const MeshView &, const ProbeOptions &, Job &, AdaptiveMesh<2> &);
+template void place_probes(const MeshView &, const ProbeOptions &, Job &, AdaptiveMesh<3> &);
+template void place_probes(const MeshView &, const ProbeOptions &, Job &, AdaptiveMesh<4> &);
 
 }  // namespace tetlod

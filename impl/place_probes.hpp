@@ -20,9 +20,9 @@ std::size_t expected_probes(const MeshView &original, const ProbeOptions &option
 
 /// Gives `mesh`, which is connected and has values, its probes in place of those that it has: every original vertex
 /// that a tet uses, and random points in original tets, more of them where the field changes more: with vertices alone
-/// the mesh would be fitted to them and go its own way in between. Returns how many of the vertices are outside of the
-/// mesh; they are left out, or projected.
+/// the mesh would be fitted to them and go its own way in between. Vertices outside of the mesh are left out, or
+/// projected.
 template <std::size_t m>
-std::int64_t place_probes(const MeshView &original, const ProbeOptions &options, Job &job, AdaptiveMesh<m> &mesh);
+void place_probes(const MeshView &original, const ProbeOptions &options, Job &job, AdaptiveMesh<m> &mesh);
 
 }  // namespace tetlod

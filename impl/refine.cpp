@@ -1,7 +1,6 @@
 #include "refine.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "adaptive_mesh.hpp"
@@ -181,7 +180,7 @@ class Refinement {
   Job &job_;
   TetMesh &out_;
   AdaptiveMesh<m> mesh_;
-  std::optional<NearestTriangle> nearest_;
+  std::optional<TriangleTree> nearest_;
   std::size_t first_inserted_ = 0;
   RefineReport report_;
 };

@@ -106,7 +106,7 @@ RemeshInput samples_inserted_late(const RemeshProblem &problem, double) {
 }
 
 /// Nearer to the surface than half the longest edge of the nearest triangle.
-bool crowds(const Vec3 &p, const Surface &surface, const NearestTriangle &triangles) {
+bool crowds(const Vec3 &p, const Surface &surface, const TriangleTree &triangles) {
   const NearestPoint at = triangles.nearest(p);
   if (at.triangle < 0) return false;
   const Triangle &t = surface.triangles[std::size_t(at.triangle)];
@@ -117,7 +117,7 @@ bool crowds(const Vec3 &p, const Surface &surface, const NearestTriangle &triang
 
 RemeshInput without_crowding_samples(const RemeshProblem &problem, double fraction) {
   RemeshInput input = boundary_input(problem, uniform_frame(problem.box));
-  const NearestTriangle triangles(problem.surface.points, problem.surface.triangles, 8, problem.job);
+  const TriangleTree triangles(problem.surface.points, problem.surface.triangles, 8, problem.job);
   for (std::size_t i = 0; i < problem.samples.size(); i++) {
     if (i % 256 == 0) problem.job.poll(fraction);
     if (!crowds(problem.samples[i], problem.surface, triangles))

@@ -1,12 +1,12 @@
 #include "remesh_checks.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <numeric>
 #include <tuple>
 
 #include "disjoint_sets.hpp"
+#include "geometry.hpp"
 #include "key_file.hpp"
 #include "remesh_frame.hpp"
 #include "status.hpp"
@@ -16,8 +16,6 @@ namespace tetlod {
 namespace {
 
 constexpr std::size_t turn = std::size_t(1) << 16;  // loop turns between two polls of the job
-
-bool is_finite(const Vec3 &p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
 void check_size(const Surface &surface) {
   if (surface.points.empty() || surface.triangles.empty()) fail(Status::mesh_empty, "the boundary is empty");

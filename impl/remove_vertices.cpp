@@ -60,14 +60,14 @@ class CollapseFinder {
 }  // namespace
 
 template <std::size_t m>
-std::int64_t remove_vertices(double price, Job &job, AdaptiveMesh<m> &mesh) {
+void remove_vertices(double price, Job &job, AdaptiveMesh<m> &mesh) {
   Array<std::int32_t> items(&job.memory), made(&job.memory);
   for (std::size_t v = 0; v < mesh.points.size(); v++)
     if (!mesh.fixed[v] && !mesh.kept[v] && mesh.tet_of[v] >= 0) items.push_back(std::int32_t(v));
   const CollapseFinder finder(price, mesh);
   const Array<std::size_t> batches =
       batches_apart(mesh, StarLists(Span<const Tet>(mesh.tets), mesh.points.size(), job), job, items);
-  return sweep<Collapse>(
+  sweep<Collapse>(
       items, batches, job, mesh, [&](std::int32_t v, Collapse &collapse) { return finder.find(v, collapse); },
       [&](const Collapse &collapse) {
         mesh.replace(collapse.old, collapse.fresh, made);
@@ -75,9 +75,9 @@ std::int64_t remove_vertices(double price, Job &job, AdaptiveMesh<m> &mesh) {
       });
 }
 
-template std::int64_t remove_vertices(double, Job &, AdaptiveMesh<1> &);
-template std::int64_t remove_vertices(double, Job &, AdaptiveMesh<2> &);
-template std::int64_t remove_vertices(double, Job &, AdaptiveMesh<3> &);
-template std::int64_t remove_vertices(double, Job &, AdaptiveMesh<4> &);
+template void remove_vertices(double, Job &, AdaptiveMesh<1> &);
+template void remove_vertices(double, Job &, AdaptiveMesh<2> &);
+template void remove_vertices(double, Job &, AdaptiveMesh<3> &);
+template void remove_vertices(double, Job &, AdaptiveMesh<4> &);
 
 }  // namespace tetlod

@@ -6,8 +6,8 @@
 namespace tetlod {
 
 /// One sweep of collapses of inner vertices into a neighbour. A collapse is made when it raises the sum of squares by
-/// less than `price` for every tet that it saves. Returns how many were made.
+/// less than `price` for every tet that it saves.
 template <std::size_t m>
-std::int64_t remove_vertices(double price, Job &job, AdaptiveMesh<m> &mesh);
+void remove_vertices(double price, Job &job, AdaptiveMesh<m> &mesh);
 
 }  // namespace tetlod

@@ -1,7 +1,6 @@
 #include "sample_residual.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "geometry.hpp"
 

@@ -4,7 +4,6 @@
 #include <limits>
 #include <numeric>
 
-#include "geometry.hpp"
 #include "predicates.hpp"
 #include "sort_by_place.hpp"
 #include "whole_arrays.hpp"

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "geometry.hpp"
+#include "ray.hpp"
 
 namespace tetlod {
 
@@ -13,7 +14,7 @@ double angle_between(const Vec3 &a, const Vec3 &b) { return std::atan2(glm::leng
 
 }  // namespace
 
-NearestTriangle::NearestTriangle(Span<const Vec3> points, Span<const Triangle> triangles, std::int64_t leaf, Job &job)
+TriangleTree::TriangleTree(Span<const Vec3> points, Span<const Triangle> triangles, std::int64_t leaf, Job &job)
     : points_(points), triangles_(triangles), tree_(job.memory) {
   Array<Box> boxes(&job.memory);
   boxes.reserve(triangles.size());
@@ -21,7 +22,7 @@ NearestTriangle::NearestTriangle(Span<const Vec3> points, Span<const Triangle> t
   tree_.build(std::move(boxes), leaf, job);
 }
 
-NearestPoint NearestTriangle::nearest(const Vec3 &p) const {
+NearestPoint TriangleTree::nearest(const Vec3 &p) const {
   NearestPoint best;
   double distance2 = std::numeric_limits<double>::infinity();
   Vec3 at;
@@ -38,7 +39,7 @@ NearestPoint NearestTriangle::nearest(const Vec3 &p) const {
   return best;
 }
 
-double NearestTriangle::larger_distance2(const Vec3 &p, double known) const {
+double TriangleTree::larger_distance2(const Vec3 &p, double known) const {
   constexpr double no_more = -1;  // nothing is nearer, so that the search ends
   double distance2 = std::numeric_limits<double>::infinity();
   Vec3 at;
@@ -50,7 +51,20 @@ double NearestTriangle::larger_distance2(const Vec3 &p, double known) const {
   return std::max(distance2, known);
 }
 
-Vec3 NearestTriangle::weights_in(std::int32_t triangle, const Vec3 &p, Vec3 &at) const {
+std::optional<int> TriangleTree::depth(const Vec3 &p, std::int32_t but) const {
+  int depth = 0;
+  const bool meets = !tree_.empty() && tree_.any_overlap(ray_to(p, tree_.box()), [&](std::int32_t t) {
+    if (t == but) return false;
+    const Triangle &corner = triangles_[std::size_t(t)];
+    const RayEnd end = end_of_ray(points_[std::size_t(corner[0])], points_[std::size_t(corner[1])],
+                                  points_[std::size_t(corner[2])], p);
+    depth += int(end == RayEnd::entered) - int(end == RayEnd::left);
+    return end == RayEnd::at;
+  });
+  return meets ? std::nullopt : std::optional(depth);
+}
+
+Vec3 TriangleTree::weights_in(std::int32_t triangle, const Vec3 &p, Vec3 &at) const {
   const Triangle &corner = triangles_[std::size_t(triangle)];
   const Vec3 &a = points_[std::size_t(corner[0])], &b = points_[std::size_t(corner[1])],
              &c = points_[std::size_t(corner[2])];
@@ -109,20 +123,12 @@ bool SurfaceDistance::pseudonormal(const NearestPoint &at, Vec3 &normal) const {
   return true;
 }
 
-bool SurfaceDistance::inside_by_winding(const Vec3 &p) const {
-  double sum = 0;
-  for (const Triangle &t : surface_.triangles)
-    sum += winding_share(p, surface_.points[std::size_t(t[0])], surface_.points[std::size_t(t[1])],
-                         surface_.points[std::size_t(t[2])]);
-  return sum > 0.5;
-}
-
 double SurfaceDistance::signed_distance(const Vec3 &p, NearestPoint &nearest) const {
   nearest = nearest_.nearest(p);
   const Triangle &v = surface_.triangles[std::size_t(nearest.triangle)];
   Vec3 at(0), normal;
   for (int k = 0; k < 3; k++) at += nearest.weights[k] * surface_.points[std::size_t(v[std::size_t(k)])];
-  const bool inside = pseudonormal(nearest, normal) ? glm::dot(p - at, normal) < 0 : inside_by_winding(p);
+  const bool inside = pseudonormal(nearest, normal) ? glm::dot(p - at, normal) < 0 : nearest_.depth(p) > 0;
   return inside ? nearest.distance : -nearest.distance;
 }
 

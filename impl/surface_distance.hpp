@@ -1,6 +1,7 @@
 // 3.3  A k-d tree over the triangles of a closed surface: how far is a point from it, and on which side.
 #pragma once
 #include <cstdint>
+#include <optional>
 
 #include "job.hpp"
 #include "kd_tree.hpp"
@@ -16,12 +17,15 @@ struct NearestPoint {
   double distance = 0;
 };
 
-class NearestTriangle {
+class TriangleTree {
  public:
-  NearestTriangle(Span<const Vec3> points, Span<const Triangle> triangles, std::int64_t leaf, Job &job);
+  TriangleTree(Span<const Vec3> points, Span<const Triangle> triangles, std::int64_t leaf, Job &job);
   NearestPoint nearest(const Vec3 &p) const;
   /// The square of the distance to it, where that is more than `known`; else `known`, sooner.
   double larger_distance2(const Vec3 &p, double known) const;
+  /// In how much material p is, by the triangles, but for one, on a ray to it: exact. Nothing where it is on one of
+  /// them.
+  std::optional<int> depth(const Vec3 &p, std::int32_t but = -1) const;
 
  private:
   /// Barycentric, of the point of a triangle that is nearest to p, which comes to be `at`.
@@ -34,7 +38,7 @@ class NearestTriangle {
 
 /// Tells inside from outside for every point that is not on the surface itself. The side is that of the angle-weighted
 /// pseudonormal at the nearest point (Baerentzen and Aanaes 2005); where the surface touches itself that has no
-/// meaning, and the winding number decides.
+/// meaning, and a ray decides.
 class SurfaceDistance {
  public:
   SurfaceDistance(const Surface &surface, const SurfaceTopology &topology, std::int64_t leaf, Job &job);
@@ -45,11 +49,10 @@ class SurfaceDistance {
  private:
   Vec3 unit_normal(std::int32_t triangle) const;
   bool pseudonormal(const NearestPoint &at, Vec3 &normal) const;
-  bool inside_by_winding(const Vec3 &p) const;
 
   const Surface &surface_;
   const SurfaceTopology &topology_;
-  NearestTriangle nearest_;
+  TriangleTree nearest_;
   Array<Vec3> vertex_normal_;  // of each vertex of the cut surface
 };
 

@@ -9,10 +9,10 @@ namespace tetlod {
 
 /// For each item, find(item, change) says whether there is a change to make, from what the mesh is, and make(change)
 /// makes it. Change has `old`, the tets that it looked at. What an earlier change of its batch has touched is looked
-/// for again. ends: where each batch ends. Returns how many changes were made.
+/// for again. ends: where each batch ends.
 template <class Change, class Find, class Make>
-std::int64_t sweep(Span<const std::int32_t> items, Span<const std::size_t> ends, Job &job, TetComplex &mesh,
-                   const Find &find, const Make &make) {
+void sweep(Span<const std::int32_t> items, Span<const std::size_t> ends, Job &job, TetComplex &mesh, const Find &find,
+           const Make &make) {
   constexpr std::size_t grain = 8;
   std::size_t first = 0, largest = 0;
   for (const std::size_t end : ends) {
@@ -21,7 +21,6 @@ std::int64_t sweep(Span<const std::int32_t> items, Span<const std::size_t> ends,
   }
   Array<Change> changes(largest, &job.memory);
   Array<std::uint8_t> found(largest, 0, &job.memory);
-  std::int64_t made = 0;
   first = 0;
   for (const std::size_t end : ends) {
     const std::size_t count = end - first;
@@ -34,11 +33,9 @@ std::int64_t sweep(Span<const std::int32_t> items, Span<const std::size_t> ends,
       if (!found[i]) continue;
       if (mesh.touched(changes[i].old) && !find(items[first + i], changes[i])) continue;
       make(changes[i]);
-      made++;
     }
     first = end;
   }
-  return made;
 }
 
 /// Batches of so many items.

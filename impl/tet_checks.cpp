@@ -1,6 +1,5 @@
 #include "tet_checks.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numeric>
 

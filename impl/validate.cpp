@@ -72,7 +72,7 @@ class Inspector {
       for (int k = 0; k < 3; k++) points_[v][k] = input_.xyz[std::size_t(k)].real(std::int64_t(v), 0);
       if (!used_[v]) {
         found_.unused.add(name);
-      } else if (!finite(points_[v])) {
+      } else if (!is_finite(points_[v])) {
         found_.nonfinite_points.add(name);
         used_[v] = 0;
       } else if (!has_finite_values(std::int64_t(v))) {
@@ -82,15 +82,12 @@ class Inspector {
   }
 
   bool has_finite_values(std::int64_t v) const {
-    const auto is_finite = [v](const StridedArray &values) {
+    const auto is_sound = [v](const StridedArray &values) {
       return v >= values.tuples || std::isfinite(values.real(v, 0));
     };
-    return is_finite(input_.scalars) &&
-           std::all_of(input_.steering.begin(), input_.steering.end(),
-                       [&](const SteeringField &field) { return is_finite(field.values); });
+    return is_sound(input_.scalars) && std::all_of(input_.steering.begin(), input_.steering.end(),
+                                                   [&](const SteeringField &field) { return is_sound(field.values); });
   }
-
-  static bool finite(const Vec3 &p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
   /// As a run does, and for its reason.
   Box scale_used_points() {

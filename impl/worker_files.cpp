@@ -6,8 +6,8 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cmath>
 
+#include "geometry.hpp"
 #include "status.hpp"
 
 namespace tetlod {
@@ -93,8 +93,7 @@ bool holds_arrays(const Descriptor &response, const protocol::Reply &answer) {
 }
 
 bool points_are_finite(const TetgenReply &reply) {
-  return std::all_of(reply.points.begin(), reply.points.end(),
-                     [](const Vec3 &p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); });
+  return std::all_of(reply.points.begin(), reply.points.end(), is_finite);
 }
 
 bool corners_are_in_range(const TetgenReply &reply) {
