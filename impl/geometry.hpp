@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <tuple>
 
 #include "mesh.hpp"
 
@@ -24,6 +25,9 @@ inline Vec3 times_power_of_two(const Vec3 &p, int exponent) {
 }
 
 inline bool is_finite(const Vec3 &p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+
+/// By x, those by y, those by z.
+inline bool is_before(const Vec3 &p, const Vec3 &q) { return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z); }
 
 inline double length2(const Vec3 &v) { return glm::dot(v, v); }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <numeric>
-#include <tuple>
 
 #include "disjoint_sets.hpp"
 #include "geometry.hpp"
@@ -69,17 +68,15 @@ void check_areas(Span<const Vec3> points, Span<const Triangle> triangles) {
   }
 }
 
-void check_coincident(Span<const Vec3> points, Memory &memory) {
-  Array<std::int32_t> order(points.size(), &memory);
+void check_coincident(Span<const Vec3> points, Job &job) {
+  Array<std::int32_t> order(points.size(), &job.memory);
   std::iota(order.begin(), order.end(), 0);
-  const auto place = [&](std::int32_t i) {
-    const Vec3 &p = points[std::size_t(i)];
-    return std::tie(p.x, p.y, p.z);
-  };
-  std::sort(order.begin(), order.end(),
-            [&](std::int32_t i, std::int32_t j) { return place(i) != place(j) ? place(i) < place(j) : i < j; });
+  const auto at = [&](std::int32_t i) -> const Vec3 & { return points[std::size_t(i)]; };
+  std::sort(order.begin(), order.end(), PollingLess(job, 0, [&](std::int32_t i, std::int32_t j) {
+              return at(i) != at(j) ? is_before(at(i), at(j)) : i < j;
+            }));
   for (std::size_t i = 1; i < order.size(); i++)
-    if (place(order[i - 1]) == place(order[i]))
+    if (at(order[i - 1]) == at(order[i]))
       fail(Status::mesh_degenerate, "boundary vertices %d and %d are at the same place", order[i - 1], order[i]);
 }
 
@@ -195,7 +192,7 @@ SurfaceFacts check_surface(const Surface &surface, Job &job) {
   for (std::size_t i = 0; i < points.size(); i++) points[i] = frame.into(surface.points[i]);
   check_every_vertex_used(surface, job.memory);
   check_areas(points, surface.triangles);
-  check_coincident(points, job.memory);
+  check_coincident(points, job);
   check_duplicates(surface, job);
   find_components(surface, job, facts);
   check_volume(points, surface.triangles);

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <numeric>
-#include <tuple>
 #include <utility>
 
+#include "geometry.hpp"
 #include "key_file.hpp"
 #include "status.hpp"
 #include "tet_checks.hpp"
@@ -121,31 +121,31 @@ std::string check_faces(const RemeshInput &input, const TetgenReply &reply, doub
 /// Points by their exact place, to know samples again that came by -i.
 class PlaceIndex {
  public:
-  PlaceIndex(Span<const Vec3> points, Memory &memory) : points_(points), order_(points.size(), &memory) {
+  PlaceIndex(Span<const Vec3> points, Job &job) : points_(points), order_(points.size(), &job.memory) {
     std::iota(order_.begin(), order_.end(), 0);
-    std::sort(order_.begin(), order_.end(),
-              [&](std::int32_t i, std::int32_t j) { return before(at(i), at(j)) || (!before(at(j), at(i)) && i < j); });
+    std::sort(order_.begin(), order_.end(), PollingLess(job, 0, [&](std::int32_t i, std::int32_t j) {
+                return at(i) != at(j) ? is_before(at(i), at(j)) : i < j;
+              }));
   }
   /// The lowest index of a point at this place, or -1.
   std::int32_t find(const Vec3 &place) const {
     const auto found = std::lower_bound(order_.begin(), order_.end(), place,
-                                        [&](std::int32_t i, const Vec3 &p) { return before(at(i), p); });
-    return found == order_.end() || before(place, at(*found)) ? nobody : *found;
+                                        [&](std::int32_t i, const Vec3 &p) { return is_before(at(i), p); });
+    return found == order_.end() || is_before(place, at(*found)) ? nobody : *found;
   }
 
  private:
-  static bool before(const Vec3 &p, const Vec3 &q) { return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z); }
   const Vec3 &at(std::int32_t i) const { return points_[std::size_t(i)]; }
   Span<const Vec3> points_;
   Array<std::int32_t> order_;
 };
 
 /// The number (see RemeshInput) of every point of the reply; nobody: a Steiner point.
-Array<std::int32_t> numbers(const RemeshInput &input, const TetgenReply &reply, Memory &memory) {
-  Array<std::int32_t> number(reply.points.size(), nobody, &memory);
+Array<std::int32_t> numbers(const RemeshInput &input, const TetgenReply &reply, Job &job) {
+  Array<std::int32_t> number(reply.points.size(), nobody, &job.memory);
   std::copy(input.number.begin(), input.number.end(), number.begin());
   if (input.insert.empty()) return number;
-  const PlaceIndex places(input.insert, memory);
+  const PlaceIndex places(input.insert, job);
   for (std::size_t i = input.points.size(); i < number.size(); i++) {
     const std::int32_t found = places.find(reply.points[i]);
     if (found != nobody) number[i] = input.insert_number[std::size_t(found)];
@@ -156,9 +156,11 @@ Array<std::int32_t> numbers(const RemeshInput &input, const TetgenReply &reply, 
 /// Numbers the points that tets use: the surface's in their order, samples in theirs, then Steiner points.
 class Numbering {
  public:
-  Numbering(const RemeshInput &input, const TetgenReply &reply, std::size_t known, Memory &memory)
-      : number_(numbers(input, reply, memory)), slot_(known, nobody, &memory), new_(number_.size(), nobody, &memory) {
-    Array<char> used(number_.size(), 0, &memory);
+  Numbering(const RemeshInput &input, const TetgenReply &reply, std::size_t known, Job &job)
+      : number_(numbers(input, reply, job)),
+        slot_(known, nobody, &job.memory),
+        new_(number_.size(), nobody, &job.memory) {
+    Array<char> used(number_.size(), 0, &job.memory);
     for (const Tet &tet : reply.tets)
       for (const std::int32_t corner : tet) used[std::size_t(corner)] = 1;
     for (std::size_t i = 0; i < used.size(); i++)
@@ -245,7 +247,7 @@ std::string accept_reply(const RemeshInput &input, const Surface &surface, Span<
   std::string wrong = remove_cavities(input, reply, fraction, job);
   if (wrong.empty()) wrong = check_faces(input, reply, fraction, job);
   if (!wrong.empty()) return wrong;
-  const Numbering numbering(input, reply, surface.points.size() + samples.size(), job.memory);
+  const Numbering numbering(input, reply, surface.points.size() + samples.size(), job);
   wrong = check_surface_used(numbering, surface);
   if (!wrong.empty()) return wrong;
   RemeshResult made(job.memory);

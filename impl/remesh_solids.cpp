@@ -1,8 +1,8 @@
 #include "remesh_solids.hpp"
 
 #include <algorithm>
-#include <tuple>
 
+#include "geometry.hpp"
 #include "ray.hpp"
 
 namespace tetlod {
@@ -10,8 +10,6 @@ namespace tetlod {
 namespace {
 
 constexpr std::int32_t nowhere = -1, undecided = -2;
-
-bool comes_before(const Vec3 &p, const Vec3 &q) { return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z); }
 
 }  // namespace
 
@@ -69,8 +67,7 @@ bool Solids::measure_shells(Job &job) {
   for (std::size_t i = 0; i < points_.size(); i++) {
     Shell &shell = shells_[std::size_t(shell_of_point_[i])];
     shell.box.add(points_[i]);
-    if (shell.lowest < 0 || comes_before(points_[i], points_[std::size_t(shell.lowest)]))
-      shell.lowest = std::int32_t(i);
+    if (shell.lowest < 0 || is_before(points_[i], points_[std::size_t(shell.lowest)])) shell.lowest = std::int32_t(i);
   }
   return true;
 }
