@@ -308,7 +308,7 @@ enum {
   TETLOD_OPT_ON_OVERLAP = 17,   /* "on-overlap": neighbours on one side of their face are kept where they do not reach
                                    the boundary; TETLOD_ERR_MESH_INTERSECTING */
   TETLOD_OPT_ON_UNUSED = 18,    /* "on-unused": ignore the points; TETLOD_ERR_MESH_DEGENERATE */
-  TETLOD_OPT_ON_NONFINITE = 19, /* "on-nonfinite": ignore points without a finite value together with their tets;
+  TETLOD_OPT_ON_NONFINITE = 19, /* "on-nonfinite": ignore points without a finite value, with their tets;
                                    TETLOD_ERR_MESH_NONFINITE, the default */
   TETLOD_OPT_TARGET_RATIO = 20, /* real, "target-ratio": tets kept, as a fraction of the original's sound ones. Then
                                    every step sees the field, as effort says, values are fitted to all original values,
@@ -438,7 +438,7 @@ TETLOD_API tetlod_status tetlod_run(tetlod_context *context);
 
 /* Estimates the field error of the last result [4], at the original vertices and at samples_per_tet (0 to 100) random
  * samples in each original tet. The input of the run must still be submitted.
- * TETLOD_ERR_STATE, TETLOD_ERR_STRUCT_SIZE, _MEMORY_LIMIT, _CANCELLED; if arrays changed, _MESH_*. */
+ * TETLOD_ERR_STATE: it is not, or points or tets changed. _STRUCT_SIZE, _MEMORY_LIMIT, _CANCELLED, _MESH_NONFINITE. */
 TETLOD_API tetlod_status tetlod_measure_error(tetlod_context *context, int32_t samples_per_tet,
                                               tetlod_error_report *out);
 /* How many original (side 0) or result (side 1) vertices have a value in each of `bins` equal parts of the original's
@@ -475,7 +475,7 @@ TETLOD_API tetlod_status tetlod_fetch_field(const tetlod_context *context, const
  * lowest is named. The scalars of the result are not made from it where decimation placed a vertex.
  * It takes no time until it is asked for: unless the run carried a point field, the first call of this or of
  * tetlod_transfer for a result reads points, tets and scalars again, which must still be submitted then.
- * TETLOD_ERR_STATE: they are not. TETLOD_ERR_BUFFER_SIZE, _MEMORY_LIMIT, _CANCELLED; if they changed, _MESH_*. */
+ * TETLOD_ERR_STATE: they are not, or points or tets changed. _BUFFER_SIZE, _MEMORY_LIMIT, _CANCELLED, _MESH_NONFINITE. */
 TETLOD_API tetlod_status tetlod_fetch_stencil(const tetlod_context *context, int32_t index_base, tetlod_array *ids,
                                               tetlod_array *weights);
 /* Moves any other point field (or the same at a later time) to the result by that stencil: simplified[i] = the mean of

@@ -4,6 +4,7 @@
 
 #include "geometry.hpp"
 #include "locate.hpp"
+#include "status.hpp"
 #include "transfer.hpp"
 
 namespace tetlod {
@@ -94,10 +95,17 @@ void split_fields(const Input &input, Job &job, Result &result) {
   }
 }
 
+void refuse_changed(const Fingerprint &mesh, const Result &result) {
+  if (!(mesh == result.original))
+    fail(Status::state, "the submitted points or tets have changed since the run that made the result");
+}
+
 void find_stencil(const Input &input, const Options &options, Prepared &prepared, Job &job, Result &result) {
   if (!result.stencil.ids.empty()) return;
+  const Fingerprint mesh = fingerprint_of_mesh(input, job);
+  refuse_changed(mesh, result);
   Prepared fresh(job.memory);
-  const bool held = prepared.holds(input, options, job);
+  const bool held = prepared.holds(mesh, input, options, job);
   if (!held) {
     Input bare = input;
     bare.flags = {};  // which change nothing here, and may be wrong

@@ -6,6 +6,7 @@
 #include <spawn.h>
 #include <sys/mman.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <time.h>
@@ -152,15 +153,21 @@ pid_t spawn(const std::string &path, const FileActions &actions) {
 Descriptor &Descriptor::operator=(Descriptor &&other) noexcept {
   if (this != &other) {
     close();
-    number_ = other.number_;
-    other.number_ = -1;
+    number_ = std::exchange(other.number_, -1);
+    file_ = other.file_;
   }
   return *this;
 }
 
 void Descriptor::close() noexcept {
-  if (number_ >= 0) ::close(number_);
+  if (is_open()) ::close(number_);
   number_ = -1;
+}
+
+Descriptor::File Descriptor::file_of(int number) noexcept {
+  struct stat status;
+  if (number < 0 || ::fstat(number, &status) != 0) return {};
+  return {status.st_dev, status.st_ino};
 }
 
 Descriptor shared_file(const char *name) {
@@ -213,6 +220,10 @@ ChildProcess::~ChildProcess() {
 }
 
 bool ChildProcess::is_ours() const noexcept { return owner_ == ::getpid(); }
+
+bool ChildProcess::is_connected() const noexcept {
+  return control_.is_as_it_was() && output_.is_as_it_was() && handle_.is_as_it_was();
+}
 
 bool ChildProcess::has_ended() const noexcept {
   if (handle_.number() < 0) return true;

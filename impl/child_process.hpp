@@ -4,22 +4,31 @@
 #include <sys/types.h>
 
 #include <string>
+#include <utility>
 
 namespace tetlod {
 
-/// Owns a file descriptor.
+/// Owns a file descriptor. A host that becomes a daemon may close it, and then has files of its own under its number,
+/// which are left alone.
 class Descriptor {
  public:
   Descriptor() = default;
-  explicit Descriptor(int number) : number_(number) {}
+  explicit Descriptor(int number) noexcept : number_(number), file_(file_of(number)) {}
   ~Descriptor() { close(); }
-  Descriptor(Descriptor &&other) noexcept : number_(other.number_) { other.number_ = -1; }
+  Descriptor(Descriptor &&other) noexcept : number_(std::exchange(other.number_, -1)), file_(other.file_) {}
   Descriptor &operator=(Descriptor &&other) noexcept;
   int number() const noexcept { return number_; }
+  bool is_open() const noexcept { return number_ >= 0 && file_of(number_) == file_; }
+  /// There was none, or it is open.
+  bool is_as_it_was() const noexcept { return number_ < 0 || is_open(); }
   void close() noexcept;
 
  private:
+  using File = std::pair<dev_t, ino_t>;
+  static File file_of(int number) noexcept;
+
   int number_ = -1;
+  File file_{};
 };
 
 /// An anonymous file in memory, close-on-exec. Throws Status::memory.
@@ -46,6 +55,8 @@ class ChildProcess {
 
   /// False in a process forked from the one that started it.
   bool is_ours() const noexcept;
+  /// False where the host has closed what leads to it.
+  bool is_connected() const noexcept;
   bool has_ended() const noexcept;
   /// Of processor time that it has used; negative where that cannot be known.
   double cpu_seconds() const noexcept;

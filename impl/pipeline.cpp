@@ -237,7 +237,8 @@ class Pipeline {
 
   void prepare() {
     const StageTimer timer(Stage::prepare, job_, report_);
-    if (prepared_.renew(input_, options_, job_)) {
+    result_.original = fingerprint_of_mesh(input_, job_);
+    if (prepared_.renew(result_.original, input_, options_, job_)) {
       report_.reused_tets = input_.tets.tuples;
     } else {
       if (any_strict_policy(options_)) refuse_defects(find_defects(input_, options_, job_), options_);

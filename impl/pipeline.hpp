@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "fingerprint.hpp"
 #include "job.hpp"
 #include "mesh.hpp"
 #include "remesh.hpp"
@@ -128,6 +129,7 @@ struct Result {
   Stencil stencil;                   ///< of the mesh's points, numbered as the caller's; empty until a field needs it
   std::vector<CarriedField> fields;  ///< and those that steered beside the scalars
   Report report;
+  Fingerprint original;  ///< of its points and tets
 };
 
 /// Simplifies; throws Error. `result` is meant to be a fresh one: after a throw its contents mean nothing.

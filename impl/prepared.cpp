@@ -6,12 +6,9 @@ namespace tetlod {
 
 namespace {
 
-Fingerprint stamp_of(const Input &input, const Options &options, Job &job) {
-  Fingerprint stamp;
-  for (const StridedArray &coordinate : input.xyz) stamp.add(coordinate, job);
-  stamp.add(input.tets, job);
+Fingerprint stamp_of(const Fingerprint &mesh, const Input &input, const Options &options, Job &job) {
+  Fingerprint stamp = mesh;
   stamp.add(input.flags, job);
-  stamp.add(std::uint64_t(input.index_base));
   stamp.add(options.merge_tolerance);
   for (const std::int64_t policy : {options.on_coincident, options.on_repeated, options.on_flat, options.on_inverted,
                                     options.on_duplicate, options.on_overlap, options.on_unused, options.on_nonfinite})
@@ -28,16 +25,24 @@ Fingerprint fingerprint_of(Span<const double> values, const DecimateOptions &opt
 
 }  // namespace
 
-bool Prepared::holds(const Input &input, const Options &options, Job &job) {
-  return holds(stamp_of(input, options, job), input, job);
+Fingerprint fingerprint_of_mesh(const Input &input, Job &job) {
+  Fingerprint mesh;
+  for (const StridedArray &coordinate : input.xyz) mesh.add(coordinate, job);
+  mesh.add(input.tets, job);
+  mesh.add(std::uint64_t(input.index_base));
+  return mesh;
+}
+
+bool Prepared::holds(const Fingerprint &mesh, const Input &input, const Options &options, Job &job) {
+  return holds(stamp_of(mesh, input, options, job), input, job);
 }
 
 bool Prepared::holds(const Fingerprint &stamp, const Input &input, Job &job) {
   return filled_ && stamp == stamp_ && renew_values(input, job, original);
 }
 
-bool Prepared::renew(const Input &input, const Options &options, Job &job) {
-  const Fingerprint stamp = stamp_of(input, options, job);
+bool Prepared::renew(const Fingerprint &mesh, const Input &input, const Options &options, Job &job) {
+  const Fingerprint stamp = stamp_of(mesh, input, options, job);
   if (holds(stamp, input, job)) return true;
   forget(job.memory);
   stamp_ = stamp;

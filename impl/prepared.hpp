@@ -20,6 +20,9 @@
 
 namespace tetlod {
 
+/// Of its points and tets.
+Fingerprint fingerprint_of_mesh(const Input &input, Job &job);
+
 class Prepared {
  public:
   explicit Prepared(Memory &memory)
@@ -36,10 +39,10 @@ class Prepared {
   Boundary boundary;
 
   /// True: original (with the input's values) and boundary are those of the input. False: both are empty, to be filled;
-  /// then say complete().
-  bool renew(const Input &input, const Options &options, Job &job);
-  /// The same, but if false, what is there stays.
-  bool holds(const Input &input, const Options &options, Job &job);
+  /// then say complete(). mesh: fingerprint_of_mesh(input).
+  bool renew(const Fingerprint &mesh, const Input &input, const Options &options, Job &job);
+  /// The same, but if false, mesh and boundary stay what they are.
+  bool holds(const Fingerprint &mesh, const Input &input, const Options &options, Job &job);
   void complete() { filled_ = true; }
   void forget(Memory &memory) { *this = Prepared(memory); }
   bool empty() const { return !filled_; }

@@ -28,7 +28,7 @@ void Worker::tetrahedralize(const TetgenRequest &request, double seconds, Job &j
 
 void Worker::begin(std::size_t process, const TetgenRequest &request, double seconds, Job &job) {
   try {
-    forget_parents();
+    forget_lost();
     if (processes_.size() <= process) processes_.resize(process + 1);
     std::unique_ptr<WorkerProcess> &chosen = processes_[process];
     if (!chosen) chosen = std::make_unique<WorkerProcess>(path_, address_space_);
@@ -40,10 +40,11 @@ void Worker::begin(std::size_t process, const TetgenRequest &request, double sec
   }
 }
 
-/// All of them, as we have been forked since, perhaps while they were busy.
-void Worker::forget_parents() {
+/// All of them where we have been forked since, perhaps while they were busy; and those whose descriptors the host has
+/// closed.
+void Worker::forget_lost() {
   for (auto &process : processes_)
-    if (process && !process->is_ours()) process = nullptr;
+    if (process && !(process->is_ours() && process->is_connected())) process = nullptr;
 }
 
 std::size_t Worker::finish_any(Job &job, TetgenReply &reply) {

@@ -69,7 +69,7 @@ class Worker {
   void abandon() noexcept;
 
  private:
-  void forget_parents();
+  void forget_lost();
   void wait_for_something() const;
   void refuse_exhaustion(const TetgenReply &reply) const;
 

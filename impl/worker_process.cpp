@@ -52,6 +52,10 @@ std::array<pollfd, 3> WorkerProcess::events() const {
 
 bool WorkerProcess::is_ours() const { return owner_ == ::getpid(); }
 
+bool WorkerProcess::is_connected() const {
+  return request_.is_open() && response_.is_open() && (!child_ || child_->is_connected());
+}
+
 void WorkerProcess::end() noexcept {
   call_.reset();
   child_.reset();
@@ -131,7 +135,8 @@ void WorkerProcess::send_request(const Call &call, Job &job) {
 }
 
 bool WorkerProcess::empty_files() const noexcept {
-  return ::ftruncate(request_.number(), 0) == 0 && ::ftruncate(response_.number(), 0) == 0;
+  return request_.is_open() && response_.is_open() && ::ftruncate(request_.number(), 0) == 0 &&
+         ::ftruncate(response_.number(), 0) == 0;
 }
 
 void WorkerProcess::begin(const TetgenRequest &request, double seconds, bool repeated, Job &job) {

@@ -25,6 +25,8 @@ class WorkerProcess {
 
   /// False in a process forked from the one that made this.
   bool is_ours() const;
+  /// False where the host has closed what is shared with it, or leads to it.
+  bool is_connected() const;
   /// From begin() until finish() has an answer.
   bool is_busy() const { return call_.has_value(); }
 

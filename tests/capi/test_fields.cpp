@@ -195,6 +195,31 @@ TEST_F(Fields, TheStencilNeedsTheInputOfItsRun) {
   EXPECT_EQ(move(field, 1), moved) << "once it is there nothing is read again";
 }
 
+/// A mesh that has moved would be looked for in the wrong place; once the stencil is there, fields follow the mesh.
+TEST_F(Fields, TheStencilNeedsTheMeshOfItsRun) {
+  const double moved = 10;
+  const auto field = field_of(cube, 1, bent);
+  const auto move_mesh = [&](double way) {
+    std::for_each(cube.xyz.begin(), cube.xyz.end(), [=](double &x) { x += way; });
+  };
+  run();
+  move_mesh(moved);
+  std::vector<double> room(points_out(), -99);
+  const tetlod_array from = array_of(TETLOD_FLOAT64, points(), 1, field.data());
+  tetlod_array to = array_of(TETLOD_FLOAT64, points_out(), 1, room.data());
+  expect_failure(tetlod_transfer(context.get(), &from, &to), TETLOD_ERR_STATE, "points or tets have changed");
+  tetlod_error_report error{};
+  error.struct_size = sizeof error;
+  expect_failure(tetlod_measure_error(context.get(), 0, &error), TETLOD_ERR_STATE, "points or tets have changed");
+  EXPECT_EQ(room, std::vector<double>(points_out(), -99));
+  move_mesh(-moved);
+  for (double &x : cube.xyz) x = std::round(x * 5) / 5;  // to the last bit
+  run();
+  const auto before = move(field, 1);
+  move_mesh(moved);
+  EXPECT_EQ(move(field, 1), before);
+}
+
 TEST_F(Fields, WhatIsRefused) {
   const auto field = field_of(cube, 2, linear);
   tetlod_array array = array_of(TETLOD_FLOAT64, points(), 2, field.data());

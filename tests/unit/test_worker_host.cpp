@@ -1,6 +1,7 @@
 // Worker: hosts that fork, close descriptors, run out of them, ignore or reap their children, or are killed.
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -174,6 +175,27 @@ TEST_F(WorkerTest, StandardDescriptorsClosed) {
       worker.reset();
       return good;
     })) << keep;
+}
+
+/// As a daemon does, which then opens files of its own: these are neither written to nor closed.
+TEST_F(WorkerTest, DescriptorsClosedBetweenCalls) {
+  EXPECT_TRUE(in_a_child([&] {
+    constexpr int count = 64;
+    use(TETLOD_REMESH);
+    if (!works()) return false;
+    for (int descriptor = 3; descriptor < count; descriptor++) ::close(descriptor);
+    std::vector<int> opened;
+    while (opened.empty() || opened.back() < count) {
+      opened.push_back(::memfd_create("host", 0));
+      if (::write(opened.back(), "host", 4) != 4) return false;
+    }
+    const bool good = works() && works();
+    worker.reset();
+    return good && std::all_of(opened.begin(), opened.end(), [](int descriptor) {
+             struct stat status;
+             return ::fstat(descriptor, &status) == 0 && status.st_size == 4;
+           });
+  }));
 }
 
 TEST_F(WorkerTest, ForkedHost) {
