@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -44,6 +45,20 @@ struct Cube {
   std::vector<double> xyz, values;
   std::vector<std::int32_t> corners;
 };
+
+/// The cube's layers become spheres.
+inline void make_ball(Cube &cube) {
+  for (std::size_t v = 0; v < cube.values.size(); v++) {
+    double *const p = &cube.xyz[3 * v];
+    double largest = 0, length = 0;
+    for (int k = 0; k < 3; k++) {
+      p[k] = 2 * p[k] - 1;
+      largest = std::max(largest, std::abs(p[k]));
+      length = std::hypot(length, p[k]);
+    }
+    for (int k = 0; k < 3 && length > 0; k++) p[k] *= largest / length;
+  }
+}
 
 inline tetlod_array array_of(std::int32_t type, std::size_t tuples, std::int32_t components, const void *data) {
   tetlod_array array{};
