@@ -159,6 +159,34 @@ TEST_F(Flags, MergedPointsHandThemOn) {
   expect_all_flagged_there();
 }
 
+/// Of copies of a vertex that become one, any may have the flag.
+TEST_F(Flags, OfTheFirstCopyCountToo) {
+  const std::size_t kept = 171;  // inside
+  for (std::size_t k = 0; k < 3; k++) cube.xyz.push_back(cube.xyz[3 * kept + k]);
+  cube.values.push_back(cube.values[kept]);
+  *std::find(cube.corners.begin(), cube.corners.end(), std::int32_t(kept)) = std::int32_t(cube.values.size() - 1);
+  submit(context.get(), cube);
+  tetlod_set_real(context.get(), TETLOD_OPT_TARGET_RATIO, 0.05);
+  flag(0, [](const Point &) { return false; });
+  flags[kept] = TETLOD_FLAG_KEEP;
+  run();
+  expect_all_flagged_there();
+}
+
+/// On a surface that bends, where the boundary is taken back to where it was farthest off.
+TEST_F(Flags, HoldWhileTheDeviationIsLowered) {
+  cube = Cube(8);
+  make_ball(cube);
+  for (std::size_t v = 0; v < cube.values.size(); v++)
+    cube.values[v] = std::tanh(6 * (cube.xyz[3 * v] - 0.3 * cube.xyz[3 * v + 1]));
+  submit(context.get(), cube);
+  tetlod_set_real(context.get(), TETLOD_OPT_TARGET_RATIO, 0.3);
+  int number = 0;
+  flag(TETLOD_FLAG_KEEP, [&](const Point &) { return number++ % 5 == 0; });
+  run();
+  expect_all_flagged_there();
+}
+
 /// No flag set is no flags submitted.
 TEST_F(Flags, ZerosChangeNothing) {
   run();

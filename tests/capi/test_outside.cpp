@@ -189,8 +189,8 @@ double distance_to(const std::vector<std::array<Point, 3>> &triangles, const Poi
 /// A block with a rough skin. Where a vertex is inserted on it for the bound's sake, new middles have to keep near,
 /// too.
 TEST(Outside, DeviationIsBoundedAtTheMiddlesOfDividedTriangles) {
-  constexpr double bound = 0.1, limit = 0.01;
-  Cube cube(5);
+  constexpr double bound = 0.03, limit = 0.003;
+  Cube cube(7);
   for (std::size_t v = 0; v < cube.values.size(); v++) {
     double *const p = &cube.xyz[3 * v];
     p[2] += 0.02 * std::sin(40 * p[0]) * std::cos(32 * p[1]);
