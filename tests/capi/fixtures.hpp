@@ -117,6 +117,14 @@ inline std::vector<unsigned char> bytes_of(const tetlod_context *context) {
   return bytes;
 }
 
+/// Of the last run.
+inline tetlod_run_report report_of(const tetlod_context *context) {
+  tetlod_run_report report{};
+  report.struct_size = sizeof report;
+  EXPECT_EQ(tetlod_fetch_report(context, &report), TETLOD_OK);
+  return report;
+}
+
 /// What a run of this mesh gives in an undisturbed context.
 inline std::vector<unsigned char> undisturbed(const Cube &cube) {
   const Context context = make_context();

@@ -7,13 +7,6 @@
 
 namespace tetlod_test {
 
-inline tetlod_run_report report_of(const tetlod_context *context) {
-  tetlod_run_report report{};
-  report.struct_size = sizeof report;
-  EXPECT_EQ(tetlod_fetch_report(context, &report), TETLOD_OK);
-  return report;
-}
-
 class Reuse : public testing::Test {
  protected:
   Cube cube{8};

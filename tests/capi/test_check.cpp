@@ -1,5 +1,4 @@
-// Defects are counted and named; a policy decides whether they are repaired or refused; the estimate of the memory
-// holds.
+// Defects are counted and named; a policy decides whether they are repaired or refused.
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -16,13 +15,6 @@ tetlod_mesh_report check(tetlod_context *context) {
   tetlod_mesh_report report{};
   report.struct_size = sizeof report;
   EXPECT_EQ(tetlod_check(context, &report), TETLOD_OK) << message_of(context);
-  return report;
-}
-
-tetlod_run_report last_report(const tetlod_context *context) {
-  tetlod_run_report report{};
-  report.struct_size = sizeof report;
-  EXPECT_EQ(tetlod_fetch_report(context, &report), TETLOD_OK);
   return report;
 }
 
@@ -138,7 +130,7 @@ TEST_P(RepairableDefects, AreRepairedByPolicy) {
   // All but the value cost no more than the tet or the point that was added: the cube is whole.
   const bool whole = GetParam().option != TETLOD_OPT_ON_NONFINITE;
   if (whole) {
-    EXPECT_EQ(last_report(context.get()).boundary_triangles_in, 12 * 9);
+    EXPECT_EQ(report_of(context.get()).boundary_triangles_in, 12 * 9);
   }
 }
 
@@ -240,102 +232,93 @@ TEST(Check, IgnoresPointsWithoutAFiniteValueTogetherWithTheirTets) {
   submit(context.get(), cube);
   ASSERT_EQ(tetlod_set_int(context.get(), TETLOD_OPT_ON_NONFINITE, TETLOD_POLICY_REPAIR), TETLOD_OK);
   ASSERT_EQ(tetlod_run(context.get()), TETLOD_OK) << message_of(context.get());
-  const tetlod_run_report report = last_report(context.get());
+  const tetlod_run_report report = report_of(context.get());
   EXPECT_EQ(report.nonfinite_points, 25);
   EXPECT_EQ(report.dropped_tets, 6 * 16);
   EXPECT_EQ(report.boundary_triangles_in, 2 * 2 * (16 + 12 + 12));
 }
 
-/// Estimates and runs. most: what the estimate may be of the peak.
-void expect_estimate(tetlod_context *context, const std::string &what, double most = 1.5) {
-  std::uint64_t estimate = 0;
-  ASSERT_EQ(tetlod_estimate_memory(context, &estimate), TETLOD_OK) << message_of(context);
-  ASSERT_EQ(tetlod_run(context), TETLOD_OK) << message_of(context);
-  const double peak = double(last_report(context).peak_bytes);
-  EXPECT_LT(double(estimate), most * peak) << what;
-  EXPECT_GT(1.5 * double(estimate), peak) << what;
+/// Their fields that steer, too.
+TEST(Check, LooksAtTheValuesOfAllFieldsThatSteer) {
+  const Cube cube(2);
+  std::vector<double> second = cube.values;
+  second[13] = nan;
+  const Context context = make_context();
+  submit(context.get(), cube);
+  const tetlod_array array = array_of(TETLOD_FLOAT64, second.size(), 1, second.data());
+  ASSERT_EQ(tetlod_submit_steering(context.get(), "second", 1, &array), TETLOD_OK);
+  const tetlod_mesh_report report = check(context.get());
+  EXPECT_EQ(report.nonfinite_values.count, 1);
+  EXPECT_EQ(report.nonfinite_values.first, 13);
 }
 
-TEST(EstimateMemory, IsWithinAFactorOfOneAndAHalf) {
-  for (int n : {8, 16, 24})
-    for (double sigma : {0.05, 1.0})
-      for (double rho : {0.0, 0.1}) {
-        const Cube cube(n);
-        const Context context = make_context();
-        submit(context.get(), cube);
-        ASSERT_EQ(tetlod_set_sigma(context.get(), sigma), TETLOD_OK);
-        ASSERT_EQ(tetlod_set_rho(context.get(), rho), TETLOD_OK);
-        expect_estimate(context.get(), std::to_string(n) + ' ' + std::to_string(sigma) + ' ' + std::to_string(rho));
-      }
+TEST(Check, FindsSolidsThatCross) {
+  Cube cube(2);
+  const Cube other(2);
+  const double way[3] = {0.5, 0.25, 0.125};
+  const auto first = std::int32_t(cube.values.size());
+  for (std::size_t k = 0; k < other.xyz.size(); k++) cube.xyz.push_back(other.xyz[k] + way[k % 3]);
+  for (std::int32_t v : other.corners) cube.corners.push_back(first + v);
+  cube.values.insert(cube.values.end(), other.values.begin(), other.values.end());
+  const Context context = make_context();
+  submit(context.get(), cube);
+  EXPECT_EQ(check(context.get()).status, TETLOD_ERR_MESH_INTERSECTING);
 }
 
-/// Sizes, bounds and fields, also of cells, each with stages of their own.
-TEST(EstimateMemory, KnowsTargetsBoundsAndFields) {
-  Cube cube(20);
-  for (std::size_t v = 0; v < cube.values.size(); v++)
-    cube.values[v] = std::sin(9 * cube.xyz[3 * v]) * std::cos(7 * cube.xyz[3 * v + 1]) + cube.xyz[3 * v + 2];
-  std::vector<double> of_points(3 * cube.values.size(), 1), of_tets(cube.corners.size() / 4, 2);
-  const tetlod_array points = array_of(TETLOD_FLOAT64, cube.values.size(), 3, of_points.data());
-  const tetlod_array tets = array_of(TETLOD_FLOAT64, of_tets.size(), 1, of_tets.data());
-  for (double ratio : {0.0, 0.1, 0.5})
-    for (double bound : {0.0, 0.05})
-      for (bool fields : {false, true}) {
-        const Context context = make_context();
-        submit(context.get(), cube);
-        ASSERT_EQ(tetlod_set_rho(context.get(), 0), TETLOD_OK);
-        ASSERT_EQ(tetlod_set_real(context.get(), TETLOD_OPT_TARGET_RATIO, ratio), TETLOD_OK);
-        ASSERT_EQ(tetlod_set_real(context.get(), TETLOD_OPT_MAX_ERROR, bound), TETLOD_OK);
-        if (fields) {
-          ASSERT_EQ(tetlod_submit_field(context.get(), "p", TETLOD_POINT_FIELD, &points), TETLOD_OK);
-          ASSERT_EQ(tetlod_submit_field(context.get(), "t", TETLOD_CELL_FIELD, &tets), TETLOD_OK);
-        }
-        expect_estimate(context.get(), "ratio " + std::to_string(ratio) + ", bound " + std::to_string(bound) +
-                                           (fields ? ", fields" : ""));
-      }
-}
-
-/// The lowest layers of a cube of n: thin solids have many triangles a tet.
-Cube plate(int n, int layers) {
-  Cube cube(n);
-  const auto left = std::size_t((layers + 1) * (n + 1) * (n + 1));
-  cube.xyz.resize(3 * left);
-  cube.values.resize(left);
-  cube.corners.resize(cube.corners.size() / std::size_t(n) * std::size_t(layers));
-  return cube;
-}
-
-TEST(EstimateMemory, KnowsThinSolids) {
-  for (int n : {16, 40, 60})
-    for (int layers : {1, 2})
-      for (double ratio : {0.02, 0.1, 0.3}) {
-        const Cube cube = plate(n, layers);
-        const Context context = make_context();
-        submit(context.get(), cube);
-        ASSERT_EQ(tetlod_set_real(context.get(), TETLOD_OPT_TARGET_RATIO, ratio), TETLOD_OK);
-        expect_estimate(context.get(),
-                        std::to_string(n) + ", " + std::to_string(layers) + " layers, ratio " + std::to_string(ratio));
-        EXPECT_EQ(last_report(context.get()).remesh_attempts, 0);
-      }
-}
-
-/// What a context keeps of earlier runs counts once, and shortens the next; the estimate does what that begins with.
-TEST(EstimateMemory, OfALaterRunIsLessThanThreeTimesWhatItTakes) {
-  Cube cube(32);
-  for (double ratio : {0.0, 0.1, 0.5}) {
+/// As a run scales them.
+TEST(Check, CountsTheSameAtExtremeCoordinates) {
+  for (double scale : {1.0, 1e-300, 1e-130, 1e200}) {
+    Cube cube(3);
+    const std::int64_t inverted = count_negative(cube);
+    for (double &x : cube.xyz) x *= scale;
     const Context context = make_context();
     submit(context.get(), cube);
-    ASSERT_EQ(tetlod_set_rho(context.get(), 0.3), TETLOD_OK);
-    ASSERT_EQ(tetlod_set_real(context.get(), TETLOD_OPT_TARGET_RATIO, ratio), TETLOD_OK);
-    for (int run = 0; run < 3; run++) {
-      const std::string what = "ratio " + std::to_string(ratio) + ", run " + std::to_string(run);
-      expect_estimate(context.get(), what, run == 0 ? 1.5 : 3);
-      tetlod_run_report report = last_report(context.get());
-      EXPECT_EQ(report.reused_tets, std::int64_t(cube.corners.size() / 4))
-          << "the estimate's preparations are the run's";
-      if (run > 0)
-        for (double &value : cube.values) value = std::sin(3 * value);
-    }
+    ASSERT_EQ(tetlod_set_real(context.get(), TETLOD_OPT_MERGE_TOLERANCE, 1e-6), TETLOD_OK);
+    const tetlod_mesh_report report = check(context.get());
+    EXPECT_EQ(report.flat.count, 0) << scale;
+    EXPECT_EQ(report.coincident.count, 0) << scale;
+    EXPECT_EQ(report.overlapping.count, 0) << scale;
+    EXPECT_EQ(report.inverted.count, inverted) << scale;
+    EXPECT_EQ(report.components, 1) << scale;
   }
+}
+
+/// A point without a place makes its tets neither inverted nor flat, and their faces no neighbours.
+TEST(Check, SaysNothingElseOfTetsOfAPointWithoutAPlace) {
+  Cube cube(2);
+  cube.xyz[3 * 13] = nan;
+  const Context context = make_context();
+  submit(context.get(), cube);
+  const tetlod_mesh_report report = check(context.get());
+  EXPECT_EQ(report.nonfinite_points.count, 1);
+  EXPECT_EQ(report.flat.count, 0);
+  EXPECT_EQ(report.overlapping.count, 0);
+}
+
+/// Two flat tets on either half of a square have a face in common that has no sides.
+TEST(Check, FlatNeighboursDoNotOverlap) {
+  Cube cube(1);
+  cube.xyz = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0.5, 0.4, 0, 0.5, 0.5, 1};
+  cube.values.assign(6, 0);
+  cube.corners = {0, 1, 2, 4, 0, 2, 3, 4, 0, 1, 2, 5, 0, 2, 3, 5};
+  const Context context = make_context();
+  submit(context.get(), cube);
+  const tetlod_mesh_report report = check(context.get());
+  EXPECT_EQ(report.flat.count, 2);
+  EXPECT_EQ(report.overlapping.count, 0);
+}
+
+/// Each is counted once, as what it is.
+TEST(Check, UnusedPointsAreNotThoseWithoutAValue) {
+  Cube cube(4);
+  add_point(cube, 5, 5, 5);
+  cube.values[62] = nan;
+  const Context context = make_context();
+  submit(context.get(), cube);
+  ASSERT_EQ(tetlod_set_int(context.get(), TETLOD_OPT_ON_NONFINITE, TETLOD_POLICY_REPAIR), TETLOD_OK);
+  ASSERT_EQ(tetlod_run(context.get()), TETLOD_OK) << message_of(context.get());
+  EXPECT_EQ(report_of(context.get()).unused_points, 1);
+  EXPECT_EQ(report_of(context.get()).nonfinite_points, 1);
 }
 
 }  // namespace

@@ -146,6 +146,59 @@ TEST_F(Fields, NumbersAreTheCallersAlsoAfterRepairs) {
   }
 }
 
+/// A tet given again is dropped with the boundary, after one with a vertex twice, which is dropped at once.
+TEST_F(Fields, NumbersAreTheCallersAfterBothKindsOfRepair) {
+  const std::vector<std::int32_t> twice(cube.corners.begin(), cube.corners.begin() + 4);
+  cube.corners.insert(cube.corners.begin() + 4 * 100, twice.begin(), twice.end());
+  cube.corners.insert(cube.corners.begin(), {0, 1, 2, 2});
+  submit(context.get(), cube);
+  tetlod_set_real(context.get(), TETLOD_OPT_TARGET_RATIO, 1);
+  std::vector<double> number(tets());
+  for (std::size_t t = 0; t < tets(); t++) number[t] = double(t);
+  ASSERT_EQ(carry("number", number, 1, TETLOD_CELL_FIELD), TETLOD_OK);
+  run();
+  const auto numbers = fetch("number", 1, tets_out());
+  std::vector<std::int32_t> corners(4 * tets_out());
+  tetlod_array array = array_of(TETLOD_INT32, tets_out(), 4, corners.data());
+  ASSERT_EQ(tetlod_fetch_tets(context.get(), 0, &array), TETLOD_OK);
+  const auto at = result_points();
+  for (std::size_t t = 0; t < tets_out(); t++)
+    for (std::size_t c = 0; c < 3; c++) {  // the centroid is in the box of the tet that is named
+      double x = 0, low = 2, high = -2;
+      for (std::size_t k = 0; k < 4; k++) {
+        const double of_corner = cube.xyz[3 * std::size_t(cube.corners[4 * std::size_t(numbers[t]) + k]) + c];
+        x += at[std::size_t(corners[4 * t + k])][c] / 4;
+        low = std::min(low, of_corner);
+        high = std::max(high, of_corner);
+      }
+      ASSERT_TRUE(x >= low - 1e-9 && x <= high + 1e-9) << t;
+    }
+}
+
+/// So are those of centroids outside of every tet: a bent plate's chords.
+TEST_F(Fields, NumbersOfTetsNearestToACentroidOutsideToo) {
+  cube = Cube(10);
+  for (std::size_t v = 0; v < cube.values.size(); v++) {
+    double *const p = &cube.xyz[3 * v];
+    const double angle = 3 * p[0], radius = 1 + 0.05 * p[2];
+    cube.values[v] = std::sin(5 * angle) * p[1];
+    p[0] = radius * std::cos(angle);
+    p[2] = radius * std::sin(angle);
+  }
+  tetlod_set_real(context.get(), TETLOD_OPT_TARGET_RATIO, 0.02);
+  std::vector<double> named[2];
+  for (const std::size_t more : {0, 1}) {
+    if (more) cube.corners.insert(cube.corners.begin(), {0, 1, 2, 2});
+    submit(context.get(), cube);
+    std::vector<double> number(tets());
+    for (std::size_t t = 0; t < tets(); t++) number[t] = double(t) - double(more);
+    ASSERT_EQ(carry("number", number, 1, TETLOD_CELL_FIELD), TETLOD_OK);
+    run();
+    named[more] = fetch("number", 1, tets_out());
+  }
+  EXPECT_EQ(named[0], named[1]);
+}
+
 TEST_F(Fields, ANameIsOneField) {
   const auto first = field_of(cube, 1, linear), second = field_of(cube, 2, bent);
   ASSERT_EQ(carry("a", first, 1), TETLOD_OK);

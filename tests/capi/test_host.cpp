@@ -2,6 +2,7 @@
 // callbacks may do what a host's code does.
 #include <dirent.h>
 #include <fcntl.h>
+#include <pthread.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -364,6 +365,14 @@ TEST(Host, MayIgnoreItsChildren) {
   const auto former = std::signal(SIGCHLD, SIG_IGN);
   EXPECT_EQ(run_once(cube), TETLOD_OK);
   std::signal(SIGCHLD, former);
+}
+
+TEST(Host, ItsThreadMayBeCancelledAfterwardsAsBefore) {
+  int former = 0, after = -1;
+  ASSERT_EQ(pthread_setcancelstate(PTHREAD_CANCEL_ENABLE, &former), 0);
+  EXPECT_EQ(run_once(Cube(2)), TETLOD_OK);
+  ASSERT_EQ(pthread_setcancelstate(former, &after), 0);
+  EXPECT_EQ(after, PTHREAD_CANCEL_ENABLE);
 }
 
 TEST(Host, RandomNumbersAndLocaleAreLeftAlone) {

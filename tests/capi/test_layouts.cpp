@@ -34,5 +34,21 @@ TEST(Layouts, CoordinatesThatLieApartWithTheStrideOfThoseThatLieTogether) {
   }
 }
 
+/// Components that run against the tuples would fall on each other; some reach further than memory does.
+TEST(Layouts, StridesThatCannotBe) {
+  const Cube cube(2);
+  const Context context = make_context();
+  submit(context.get(), cube);
+  ASSERT_EQ(tetlod_run(context.get()), TETLOD_OK) << message_of(context.get());
+  std::vector<double> room(3000);
+  tetlod_array array = array_of(TETLOD_FLOAT64, 900, 3, room.data() + 1000);
+  array.tuple_stride = sizeof(double);
+  array.component_stride = -std::int64_t(sizeof(double));
+  EXPECT_EQ(tetlod_fetch_points(context.get(), &array), TETLOD_ERR_ARGUMENT);
+  array = array_of(TETLOD_FLOAT64, 1, 3, room.data());
+  array.component_stride = std::int64_t(1) << 62;
+  EXPECT_EQ(tetlod_submit_points(context.get(), &array), TETLOD_ERR_ARGUMENT);
+}
+
 }  // namespace
 }  // namespace tetlod_test
