@@ -144,6 +144,7 @@ void tamper(Arrays &arrays) {
   if (is("index too large")) arrays.tets[2] = std::int32_t(arrays.points.size() / 3);
   if (is("index negative")) arrays.tets[2] = -1;
   if (is("nan")) arrays.points[4] = std::numeric_limits<double>::quiet_NaN();
+  if (is("more regions")) arrays.regions = {0, 1};
   if (is("region too large")) arrays.regions = {5};
   if (is("region negative")) arrays.regions = {-1};
   if (is("too few points")) arrays.points.resize(9), arrays.tets = {0, 1, 2, 0};

@@ -99,8 +99,8 @@ TEST_F(WorkerTest, IsKilledOnce) {
 
 TEST_F(WorkerTest, Lies) {
   for (const char *mode : {"negative counts", "huge counts", "more than written", "less than written", "other regions",
-                           "hole", "hole of terabytes", "index too large", "index negative", "nan", "region too large",
-                           "region negative", "short message", "long message"}) {
+                           "more regions", "hole", "hole of terabytes", "index too large", "index negative", "nan",
+                           "region too large", "region negative", "short message", "long message"}) {
     fake(mode);
     call();
     EXPECT_EQ(reply.code, worker_lied) << mode << ": " << reply.failure;
