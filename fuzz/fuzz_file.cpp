@@ -1,5 +1,7 @@
 // The command line tool's reader: small .vtk and .vtu files with edits, and bytes that were never a file.
 #include <unistd.h>
+#include <vtkCellData.h>
+#include <vtkNew.h>
 
 #include <algorithm>
 #include <cctype>
@@ -266,11 +268,16 @@ void run(tetlod::Context &context, const tetlod_vtk::OriginalArrays &arrays) {
   if (status != TETLOD_OK) return;
   const tetlod::Counts counts = context.fetch_counts();
   for (const tetlod_vtk::CarriedArray &other : arrays.others) {
-    const std::int64_t tuples = other.association == TETLOD_CELL_FIELD ? counts.tets : counts.points;
-    const auto made = tetlod_vtk::fetch_carried(context, other, tuples);
-    DEMAND(made->GetNumberOfTuples() == tuples && made->GetDataType() == other.type, "array %s is in the result",
-           other.key().c_str());
+    const auto made = tetlod_vtk::fetch_carried(context, other, counts.points);
+    DEMAND(made->GetNumberOfTuples() == counts.points, "array %s is in the result", other.key().c_str());
   }
+  const vtkNew<vtkCellData> made;
+  tetlod_vtk::fetch_cell_arrays(context, arrays.of_cells, counts.tets, *made);
+  DEMAND(made->GetNumberOfArrays() == int(arrays.of_cells.all.size()), "all arrays of cells are in the result");
+  for (int i = 0; i < made->GetNumberOfArrays(); i++)
+    DEMAND(made->GetArray(i)->GetNumberOfTuples() == counts.tets &&
+               made->GetArray(i)->GetDataType() == arrays.of_cells.all[std::size_t(i)].original->GetDataType(),
+           "array %d of the cells is what it was", i);
 }
 
 /// As the tool and the filter do it: what goes wrong is a Failure or a std::runtime_error, or memory that is not there.

@@ -1,6 +1,7 @@
 #include "checked_readers.hpp"
 
 #include <vtkAbstractArray.h>
+#include <vtkDataArray.h>
 #include <vtkObjectFactory.h>
 #include <vtkXMLDataElement.h>
 
@@ -36,10 +37,17 @@ std::string wrong_array(vtkXMLDataElement &element) {
   return {};
 }
 
-// Room for one kind of values is no room for another.
+bool holds_integers(vtkAbstractArray *array) {
+  const int type = array->GetDataType();
+  return vtkDataArray::SafeDownCast(array) != nullptr && type != VTK_FLOAT && type != VTK_DOUBLE && type != VTK_BIT;
+}
+
+// Room for one kind of values is no room for another. Integers of one width have several names: VTK reads global
+// numbers as its own kind, whatever the file says.
 bool same_kind(vtkAbstractArray *a, vtkAbstractArray *b) {
-  return a != nullptr && b != nullptr && a->GetDataType() == b->GetDataType() &&
-         a->GetNumberOfComponents() == b->GetNumberOfComponents();
+  if (a == nullptr || b == nullptr || a->GetNumberOfComponents() != b->GetNumberOfComponents()) return false;
+  return a->GetDataType() == b->GetDataType() ||
+         (holds_integers(a) && holds_integers(b) && a->GetDataTypeSize() == b->GetDataTypeSize());
 }
 
 }  // namespace

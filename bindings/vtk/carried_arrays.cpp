@@ -1,9 +1,13 @@
 #include "carried_arrays.hpp"
 
 #include <vtkCellData.h>
+#include <vtkDoubleArray.h>
 #include <vtkInformation.h>
 #include <vtkInformationStringKey.h>
+#include <vtkNew.h>
 #include <vtkPointData.h>
+
+#include <numeric>
 
 namespace tetlod_vtk {
 namespace {
@@ -31,51 +35,63 @@ int attribute_of(vtkDataSetAttributes &data, int index, int32_t association) {
   return association == TETLOD_POINT_FIELD && attribute == vtkDataSetAttributes::SCALARS ? -1 : attribute;
 }
 
-// A tuple a tet of an array with a tuple a cell.
-vtkSmartPointer<vtkDataArray> a_tuple_a_tet(vtkDataArray *array, const Tets &tets) {
-  if (tets.cells == nullptr) return array;
-  auto spread = vtk::TakeSmartPointer(array->NewInstance());
-  spread->SetNumberOfComponents(array->GetNumberOfComponents());
-  spread->SetNumberOfTuples(tets.cells->GetNumberOfValues());
-  for (vtkIdType t = 0; t < tets.cells->GetNumberOfValues(); t++)
-    spread->SetTuple(t, vtkIdType(tets.cells->GetComponent(t, 0)), array);
-  return spread;
+// use(array, attribute) for each that is carried.
+template <class Use>
+void for_carried(vtkDataSetAttributes &data, int32_t association, vtkDataArray *steering,
+                 std::vector<std::string> &notes, const Use &use) {
+  for (int i = 0; i < data.GetNumberOfArrays(); i++) {
+    vtkAbstractArray *array = data.GetAbstractArray(i);
+    const std::string name = array->GetName() != nullptr ? array->GetName() : "";
+    if (array == steering || is_bookkeeping(data, array)) continue;
+    const std::string reason = why_left_out(*array);
+    if (reason.empty())
+      use(data.GetArray(i), attribute_of(data, i, association));
+    else
+      notes.push_back("array '" + name + "' is left out: it " + reason);
+  }
 }
 
-CarriedArray carried(vtkDataArray *array, int32_t association, int attribute, const Tets &tets) {
-  const bool of_cells = association == TETLOD_CELL_FIELD;
-  const int type = array->GetDataType();
-  return {array, association, of_cells || is_real(type) ? type : VTK_DOUBLE, attribute,
-          lend_reals(of_cells ? a_tuple_a_tet(array, tets).Get() : array)};
-}
-
-vtkSmartPointer<vtkDataArray> array_for(const CarriedArray &array, int type) {
+vtkSmartPointer<vtkDataArray> array_for(vtkDataArray &original, int type, int64_t tuples) {
   auto values = vtk::TakeSmartPointer(vtkDataArray::CreateDataArray(type));
-  values->SetName(array.original->GetName());
-  values->SetNumberOfComponents(array.reals.array.components);
+  values->SetName(original.GetName());
+  values->SetNumberOfComponents(original.GetNumberOfComponents());
+  values->SetNumberOfTuples(tuples);
+  describe_as(original, *values);
   return values;
+}
+
+LentArray counted(vtkIdType count) {
+  vtkNew<vtkDoubleArray> numbers;
+  numbers->SetNumberOfValues(count);
+  std::iota(numbers->GetPointer(0), numbers->GetPointer(0) + count, 0.0);
+  return lend_reals(numbers);
+}
+
+void fetch(const tetlod::Context &context, const std::string &key, vtkDataArray &values) {
+  tetlod_array room = room_in(&values, values.GetNumberOfComponents());
+  if (const auto status = tetlod_fetch_field(context.get(), key.c_str(), &room); status != TETLOD_OK)
+    throw tetlod::Error(status, context.last_message());
 }
 
 }  // namespace
 
-std::vector<CarriedArray> carried_arrays(vtkUnstructuredGrid &grid, vtkDataArray *steering, const Tets &tets,
+std::vector<CarriedArray> carried_arrays(vtkUnstructuredGrid &grid, vtkDataArray *steering,
                                          std::vector<std::string> &notes) {
   std::vector<CarriedArray> all;
-  const auto add_all = [&](vtkDataSetAttributes &data, int32_t association) {
-    for (int i = 0; i < data.GetNumberOfArrays(); i++) {
-      vtkAbstractArray *array = data.GetAbstractArray(i);
-      const std::string name = array->GetName() != nullptr ? array->GetName() : "";
-      if (array == steering || is_bookkeeping(data, array)) continue;
-      const std::string reason = why_left_out(*array);
-      if (reason.empty())
-        all.push_back(carried(data.GetArray(i), association, attribute_of(data, i, association), tets));
-      else
-        notes.push_back("array '" + name + "' is left out: it " + reason);
-    }
-  };
-  add_all(*grid.GetPointData(), TETLOD_POINT_FIELD);
-  add_all(*grid.GetCellData(), TETLOD_CELL_FIELD);
+  for_carried(*grid.GetPointData(), TETLOD_POINT_FIELD, steering, notes, [&](vtkDataArray *array, int attribute) {
+    all.push_back({array, attribute, lend_reals(array)});
+  });
   return all;
+}
+
+CellArrays cell_arrays(vtkUnstructuredGrid &grid, vtkDataArray *steering, const Tets &tets,
+                       std::vector<std::string> &notes) {
+  CellArrays arrays{{}, tets.cells, {}};
+  for_carried(*grid.GetCellData(), TETLOD_CELL_FIELD, steering, notes, [&](vtkDataArray *array, int attribute) {
+    arrays.all.push_back({array, attribute});
+  });
+  if (!arrays.all.empty()) arrays.numbers = counted(tets.corners->GetNumberOfValues() / 4);
+  return arrays;
 }
 
 void describe_as(vtkDataArray &original, vtkDataArray &result) {
@@ -85,20 +101,28 @@ void describe_as(vtkDataArray &original, vtkDataArray &result) {
   result.GetInformation()->Set(unit, original.GetInformation()->Get(unit));
 }
 
-vtkSmartPointer<vtkDataArray> fetch_carried(const tetlod::Context &context, const CarriedArray &array, int64_t tuples) {
-  auto fetched = array_for(array, is_real(array.type) ? array.type : VTK_DOUBLE);
-  fetched->SetNumberOfTuples(tuples);
-  tetlod_array room = room_in(fetched, fetched->GetNumberOfComponents());
-  if (const auto status = tetlod_fetch_field(context.get(), array.key().c_str(), &room); status != TETLOD_OK)
-    throw tetlod::Error(status, context.last_message());
-  if (!is_real(array.type)) {
-    auto integers = array_for(array, array.type);
-    integers->DeepCopy(fetched);
-    fetched = integers;
-    fetched->SetName(array.original->GetName());
-  }
-  describe_as(*array.original, *fetched);
+vtkSmartPointer<vtkDataArray> fetch_carried(const tetlod::Context &context, const CarriedArray &array, int64_t points) {
+  const int type = array.original->GetDataType();
+  auto fetched = array_for(*array.original, is_real(type) ? type : VTK_DOUBLE, points);
+  fetch(context, array.key(), *fetched);
   return fetched;
+}
+
+void fetch_cell_arrays(const tetlod::Context &context, const CellArrays &arrays, int64_t tets,
+                       vtkDataSetAttributes &data) {
+  if (arrays.all.empty()) return;
+  vtkNew<vtkDoubleArray> numbers;
+  numbers->SetNumberOfValues(tets);
+  fetch(context, kTetNumbers, *numbers);
+  for (const CellArrays::One &one : arrays.all) {
+    auto values = array_for(*one.original, one.original->GetDataType(), tets);
+    for (vtkIdType t = 0; t < tets; t++) {
+      const auto of_tet = vtkIdType(numbers->GetValue(t));
+      values->SetTuple(t, arrays.cells ? vtkIdType(arrays.cells->GetComponent(of_tet, 0)) : of_tet, one.original);
+    }
+    const int at = data.AddArray(values);
+    if (one.attribute >= 0) data.SetActiveAttribute(at, one.attribute);
+  }
 }
 
 }  // namespace tetlod_vtk

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <vtkDataArray.h>
+#include <vtkDataSetAttributes.h>
 #include <vtkSmartPointer.h>
 #include <vtkUnstructuredGrid.h>
 
@@ -14,31 +15,50 @@
 
 namespace tetlod_vtk {
 
+// Of points.
 struct CarriedArray {
   vtkSmartPointer<vtkDataArray> original;  // the grid's
-  int32_t association;                     // TETLOD_POINT_FIELD or TETLOD_CELL_FIELD
-  int type;                                // VTK's, of the result's array
   int attribute;                           // vtkDataSetAttributes::AttributeTypes that it is active as; -1: none
-  LentArray reals;                         // what the library gets: a tuple a point or a tet
+  LentArray reals;                         // what the library gets
   double weight = 0;                       // positive: it steers
 
-  // A grid may have a point and a cell array of one name; the library's fields have one each.
-  std::string key() const {
-    return std::string(association == TETLOD_CELL_FIELD ? "cell " : "point ") + original->GetName();
-  }
+  // The library's fields have names of their own beside the scalars.
+  std::string key() const { return std::string("point ") + original->GetName(); }
 };
 
-// All named arrays of numbers but the steering one. Those of cells keep their type; those of points become means, so
-// integers become doubles. Ghost marks and global numbers have no meaning any more. A note says which are left out:
-// without a name, or of more than 64 components.
-std::vector<CarriedArray> carried_arrays(vtkUnstructuredGrid &grid, vtkDataArray *steering, const Tets &tets,
+// Of cells: the library carries the numbers of the tets, once, and values are copied as they are.
+struct CellArrays {
+  struct One {
+    vtkSmartPointer<vtkDataArray> original;  // the grid's
+    int attribute;
+  };
+  std::vector<One> all;
+  vtkSmartPointer<vtkDataArray> cells;  // as Tets has them
+  LentArray numbers;                    // of the tets; without a keeper where there are no arrays
+};
+
+// All named arrays of numbers of points but the steering one. They become means, so integers become doubles. Ghost
+// marks and global numbers have no meaning any more. A note says which are left out: without a name, or of more than 64
+// components.
+std::vector<CarriedArray> carried_arrays(vtkUnstructuredGrid &grid, vtkDataArray *steering,
                                          std::vector<std::string> &notes);
+
+// The same of cells, which keep their type.
+CellArrays cell_arrays(vtkUnstructuredGrid &grid, vtkDataArray *steering, const Tets &tets,
+                       std::vector<std::string> &notes);
 
 // Gives the result's array the original's unit and names of components. What else VTK has noted of an array is of its
 // values, such as their range; it depends on who asked for it before.
 void describe_as(vtkDataArray &original, vtkDataArray &result);
 
 // The array on the context's result.
-vtkSmartPointer<vtkDataArray> fetch_carried(const tetlod::Context &context, const CarriedArray &array, int64_t tuples);
+vtkSmartPointer<vtkDataArray> fetch_carried(const tetlod::Context &context, const CarriedArray &array, int64_t points);
+
+// What the library knows the numbers of the tets by.
+constexpr char kTetNumbers[] = "tet numbers";
+
+// All of them, on the context's result.
+void fetch_cell_arrays(const tetlod::Context &context, const CellArrays &arrays, int64_t tets,
+                       vtkDataSetAttributes &data);
 
 }  // namespace tetlod_vtk

@@ -47,7 +47,7 @@ vtkUnsignedCharArray *flags_array(vtkUnstructuredGrid &grid, vtkInformation *wan
 CarriedArray &further_array(vtkUnstructuredGrid &grid, const std::string &name, std::vector<CarriedArray> &others) {
   steering_field(grid, name);
   for (CarriedArray &other : others)
-    if (other.association == TETLOD_POINT_FIELD && other.original->GetName() == name) return other;
+    if (other.original->GetName() == name) return other;
   throw std::runtime_error("field '" + name + "' cannot steer beside others: it is the first, or has no meaning here");
 }
 
@@ -72,7 +72,7 @@ void submit_points(tetlod::Context &context, const Original &original) {
 void submit_other(tetlod::Context &context, const CarriedArray &other) {
   const tetlod_array *const values = &other.reals.array;
   require(other.weight > 0 ? tetlod_submit_steering(context.get(), other.key().c_str(), other.weight, values)
-                           : tetlod_submit_field(context.get(), other.key().c_str(), other.association, values),
+                           : tetlod_submit_field(context.get(), other.key().c_str(), TETLOD_POINT_FIELD, values),
           context);
 }
 
@@ -90,7 +90,8 @@ Original original_of(vtkUnstructuredGrid *input, vtkInformation *steering, const
   original.arrays.points = original.grid->GetPoints()->GetData();
   original.arrays.steering = field;
   original.arrays.name = field->GetName() != nullptr ? field->GetName() : "scalars";
-  original.arrays.others = carried_arrays(*original.grid, field, original.tets, notes);
+  original.arrays.others = carried_arrays(*original.grid, field, notes);
+  original.arrays.of_cells = cell_arrays(*original.grid, field, original.tets, notes);
   for (const WeightedArray &array : further)
     further_array(*original.grid, array.name, original.arrays.others).weight = array.weight;
   return original;
@@ -102,6 +103,8 @@ void submit(tetlod::Context &context, const Original &original) {
   require(tetlod_submit_tets(context.get(), &corners, 0), context);
   require(tetlod_submit_scalars(context.get(), original.arrays.name.c_str(), &original.values.array), context);
   for (const CarriedArray &other : original.arrays.others) submit_other(context, other);
+  if (const LentArray &numbers = original.arrays.of_cells.numbers; numbers.keeper != nullptr)
+    require(tetlod_submit_field(context.get(), kTetNumbers, TETLOD_CELL_FIELD, &numbers.array), context);
   if (original.flags == nullptr) return;
   const tetlod_array flags = room_in(original.flags, 1);
   require(tetlod_submit_point_flags(context.get(), &flags), context);

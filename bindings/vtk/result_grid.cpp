@@ -55,12 +55,10 @@ void fill_result(const tetlod::Context &context, const OriginalArrays &arrays, v
   fill_tets(context, counts.tets, grid);
   fill_scalars(context, arrays, counts.points, grid);
   for (const CarriedArray &other : arrays.others) {
-    const bool of_cells = other.association == TETLOD_CELL_FIELD;
-    vtkDataSetAttributes *data =
-        of_cells ? static_cast<vtkDataSetAttributes *>(grid.GetCellData()) : grid.GetPointData();
-    const int at = data->AddArray(fetch_carried(context, other, of_cells ? counts.tets : counts.points));
-    if (other.attribute >= 0) data->SetActiveAttribute(at, other.attribute);
+    const int at = grid.GetPointData()->AddArray(fetch_carried(context, other, counts.points));
+    if (other.attribute >= 0) grid.GetPointData()->SetActiveAttribute(at, other.attribute);
   }
+  fetch_cell_arrays(context, arrays.of_cells, counts.tets, *grid.GetCellData());
 }
 
 }  // namespace tetlod_vtk

@@ -16,6 +16,7 @@ struct OriginalArrays {
   vtkSmartPointer<vtkDataArray> points, steering;
   std::string name;  // of the steering field
   std::vector<CarriedArray> others;
+  CellArrays of_cells;
 };
 
 // Fills the grid from the context's last result: points in double precision, in which their tets are known to be

@@ -175,6 +175,27 @@ TEST_F(Files, PartitionedFilesAreOneMesh) {
   EXPECT_EQ(report["components"], 1);
 }
 
+// As VTK's own writer makes it of 64 bit integers: its reader takes global numbers for another kind of integers.
+TEST_F(Files, PartitionedFilesMayHaveGlobalNumbers) {
+  std::ofstream(folder / "piece.vtu") << R"(<VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian">
+<UnstructuredGrid><Piece NumberOfPoints="4" NumberOfCells="1">
+<PointData Scalars="heat" GlobalIds="number"><DataArray type="Float64" Name="heat" format="ascii">0 1 2 3</DataArray>
+<DataArray type="Int64" Name="number" format="ascii">7 8 9 10</DataArray></PointData>
+<Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">0 0 0 1 0 0 0 1 0 0 0 1</DataArray></Points>
+<Cells><DataArray type="Int64" Name="connectivity" format="ascii">0 1 2 3</DataArray>
+<DataArray type="Int64" Name="offsets" format="ascii">4</DataArray>
+<DataArray type="UInt8" Name="types" format="ascii">10</DataArray></Cells>
+</Piece></UnstructuredGrid></VTKFile>)";
+  std::ofstream(folder / "whole.pvtu") << R"(<VTKFile type="PUnstructuredGrid" version="0.1">
+<PUnstructuredGrid GhostLevel="0">
+<PPointData Scalars="heat" GlobalIds="number"><PDataArray type="Float64" Name="heat"/>
+<PDataArray type="Int64" Name="number"/></PPointData>
+<PPoints><PDataArray type="Float64" NumberOfComponents="3"/></PPoints>
+<Piece Source="piece.vtu"/>
+</PUnstructuredGrid></VTKFile>)";
+  EXPECT_EQ(run(folder / "whole.pvtu", folder / "out.vtu", {"--field", "heat"})["tets_in"], 1);
+}
+
 // A link into another folder, with or without a file at its end, stays a link.
 TEST_F(Files, AResultIsWrittenWhereALinkLeads) {
   namespace fs = std::filesystem;

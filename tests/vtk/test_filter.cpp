@@ -11,6 +11,7 @@
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
+#include <vtkTypeInt64Array.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
@@ -176,6 +177,32 @@ TEST_F(Filter, UnitsAndNamesOfComponentsStay) {
   ASSERT_EQ(tool.status, 0) << tool.err;
   EXPECT_EQ(bytes_of(result), cli_test::contents_of(folder / "out.vtu"));
   EXPECT_NE(cli_test::contents_of(folder / "pictures/report.html").find("heat [K]"), std::string::npos);
+}
+
+// No double holds these; arrays of cells are copied, not computed with.
+TEST_F(Filter, IntegersOfCellsAreWhatTheyWere) {
+  constexpr vtkTypeInt64 large = (vtkTypeInt64{1} << 60) + 1;
+  for (const Kind kind : {Kind::tet, Kind::hexahedron}) {
+    Cube cube;
+    cube.kind = kind;
+    const Grid grid = cube_grid(cube);
+    vtkNew<vtkTypeInt64Array> numbers;
+    numbers->SetName("number");
+    for (vtkIdType i = 0; i < grid->GetNumberOfCells(); i++) numbers->InsertNextValue(large + 2 * i);
+    grid->GetCellData()->AddArray(numbers);
+    filter->SetInputData(grid);
+    vtkCellData &made = *updated()->GetCellData();
+    vtkDataArray *const copied = made.GetArray("number");
+    ASSERT_TRUE(copied != nullptr && copied->GetDataType() == numbers->GetDataType());
+    const auto *const value = static_cast<const vtkTypeInt64 *>(copied->GetVoidPointer(0));
+    vtkDataArray &parts = *grid->GetCellData()->GetArray("part");
+    for (vtkIdType t = 0; t < copied->GetNumberOfTuples(); t++) {
+      const vtkTypeInt64 cell = (value[t] - large) / 2;
+      ASSERT_TRUE(value[t] == large + 2 * cell && cell >= 0 && cell < grid->GetNumberOfCells());
+      EXPECT_EQ(made.GetArray("part")->GetComponent(t, 0), parts.GetComponent(cell, 0));
+    }
+  }
+  expect_silence();
 }
 
 TEST_F(Filter, WhatVTKNotesOfAnArraysValuesDoesNotStay) {
