@@ -1,7 +1,5 @@
 // The command line tool's reader: small .vtk and .vtu files with edits, and bytes that were never a file.
 #include <unistd.h>
-#include <vtkCellData.h>
-#include <vtkNew.h>
 
 #include <algorithm>
 #include <cctype>
@@ -271,13 +269,11 @@ void run(tetlod::Context &context, const tetlod_vtk::OriginalArrays &arrays) {
     const auto made = tetlod_vtk::fetch_carried(context, other, counts.points);
     DEMAND(made->GetNumberOfTuples() == counts.points, "array %s is in the result", other.key().c_str());
   }
-  const vtkNew<vtkCellData> made;
-  tetlod_vtk::fetch_cell_arrays(context, arrays.of_cells, counts.tets, *made);
-  DEMAND(made->GetNumberOfArrays() == int(arrays.of_cells.all.size()), "all arrays of cells are in the result");
-  for (int i = 0; i < made->GetNumberOfArrays(); i++)
-    DEMAND(made->GetArray(i)->GetNumberOfTuples() == counts.tets &&
-               made->GetArray(i)->GetDataType() == arrays.of_cells.all[std::size_t(i)].original->GetDataType(),
-           "array %d of the cells is what it was", i);
+  const auto of_cells = tetlod_vtk::fetch_all(context, arrays.of_cells, counts.tets);
+  for (std::size_t i = 0; i < of_cells.size(); i++)
+    DEMAND(of_cells[i]->GetNumberOfTuples() == counts.tets &&
+               of_cells[i]->GetDataType() == arrays.of_cells.all[i].original->GetDataType(),
+           "array %zu of the cells is what it was", i);
 }
 
 /// As the tool and the filter do it: what goes wrong is a Failure or a std::runtime_error, or memory that is not there.

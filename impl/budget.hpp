@@ -106,10 +106,20 @@ inline Budget larger_budget(double ratio, double sigma, const Report &report) {
   return budget;
 }
 
+/// No tet has to go.
+inline bool keeps_all(const Budget &budget, const Report &report) {
+  return budget.tets >= report.tets_in - report.dropped_tets;
+}
+
+/// What collapses left, where there was none. origin: of each point, the original vertex, or -1.
+inline bool is_the_original(const TetMesh &mesh, Span<const std::int32_t> origin, const Report &report) {
+  return std::int64_t(mesh.tets.size()) == report.tets_in - report.dropped_tets &&
+         std::all_of(origin.begin(), origin.end(), [](std::int32_t v) { return v >= 0; });
+}
+
 /// There is no larger budget: no less can be decimated, and, where edges collapse, none would.
 inline bool is_whole(const Budget &budget, const Options &options, const Report &report) {
-  return budget.sigma >= 1 &&
-         (!collapses_edges(options, report) || budget.tets >= report.tets_in - report.dropped_tets);
+  return budget.sigma >= 1 && (!collapses_edges(options, report) || keeps_all(budget, report));
 }
 
 /// Where edges collapse, a bound without a size begins where the largest error is about twice the bound, which takes
@@ -139,8 +149,9 @@ struct CollapseSizes {
 
 /// What a bound asks for, and few tets, serve the field alone; else a part of what the largest errors get serves the
 /// boundary before.
-inline CollapseSizes collapse_sizes(const Budget &budget, const Options &options) {
+inline CollapseSizes collapse_sizes(const Budget &budget, const Options &options, const Report &report) {
   constexpr std::int64_t part = 400;
+  if (keeps_all(budget, report)) return {budget.tets, 0};
   const std::int64_t most = before_lowering(budget.tets, options.max_error);
   if (budget.enough > 0) return {budget.least, 0};
   const bool lowers = options.effort == effort_accurate && most < budget.tets && options.max_deviation <= 0;
@@ -148,10 +159,10 @@ inline CollapseSizes collapse_sizes(const Budget &budget, const Options &options
 }
 
 /// How many tets there shall be before the largest errors get the rest; with what the boundary has left.
-inline std::int64_t tets_before_lowering(const Budget &budget, const Options &options, bool collapsed,
-                                         std::size_t tets) {
+inline std::int64_t tets_before_lowering(const Budget &budget, const Options &options, const Report &report,
+                                         bool collapsed, std::size_t tets) {
   const std::int64_t before = before_lowering(budget.tets, options.max_error);
-  const bool lowered = collapsed && collapse_sizes(budget, options).lowered > 0;
+  const bool lowered = collapsed && collapse_sizes(budget, options, report).lowered > 0;
   return lowered ? std::min(std::int64_t(tets), before) : before;
 }
 

@@ -4,6 +4,7 @@
 
 #include "pipeline.hpp"
 #include "prepare.hpp"
+#include "refine.hpp"
 #include "status.hpp"
 #include "surface_topology.hpp"
 
@@ -56,6 +57,15 @@ inline std::string failed_bound(double bound, Span<const std::int32_t> beyond, s
   const std::string why = report.max_error > bound ? "the largest error is " + number(report.max_error)
                                                    : "it is just outside of a tet with other values";
   return "max-error " + number(bound) + " cannot be held" + where + ", with the whole boundary: " + why;
+}
+
+inline void describe_refinement(const RefineReport &refined, const Original &original, Report &report) {
+  report.max_deviation = std::max(report.max_deviation, refined.deviation / original.box.diagonal());
+  report.samples -= refined.removed_samples;
+  report.steiner_points -= refined.removed_steiner;
+  report.inserted_points = refined.inserted - refined.inserted_on_boundary;
+  describe_insertions(refined.inserted_on_boundary, report);
+  report.max_error = original.range > 0 ? refined.max_error / original.range : 0;  // what is constant stays so
 }
 
 }  // namespace tetlod

@@ -138,7 +138,7 @@ class Pipeline {
   bool collapse_edges(CoarseSolid &coarse) {
     describe_boundary(prepared_.topology(job_), report_);
     const StageTimer timer(Stage::decimate, job_, report_);
-    const CollapseSizes sizes = collapse_sizes(budget_, options_);
+    const CollapseSizes sizes = collapse_sizes(budget_, options_, report_);
     const bool holds_bound = options_.max_error > 0;
     const bool hasty = is_hasty(options_, report_);
     SolidHistory &history = prepared_.history(holds_bound, hasty, options_.warm_start > 0, job_);
@@ -195,20 +195,17 @@ class Pipeline {
 
   void refine(bool collapsed) {
     const StageTimer timer(Stage::values, job_, report_);
-    const double range = original_.range, bound = options_.max_error * range;
+    const double bound = options_.max_error * original_.range;
     const Array<std::uint8_t> kept = kept_.flags_of(origin_, job_.memory);
     const bool follows_field = !collapsed || options_.effort == effort_accurate;
-    const std::int64_t before = tets_before_lowering(budget_, options_, collapsed, mesh_.tets.size());
+    const std::int64_t before = tets_before_lowering(budget_, options_, report_, collapsed, mesh_.tets.size());
     const RefineOptions options{
         budget_.tets, before, report_.steiner_points, follows_field,    rounds_of(options_, report_),
         bound,        kept,   boundary_.triangles,    deviation_limit()};
-    RefineReport refined = tetlod::refine(original_.view, options, job_, mesh_);
-    report_.max_deviation = std::max(report_.max_deviation, refined.deviation / original_.box.diagonal());
-    report_.samples -= refined.removed_samples;
-    report_.steiner_points -= refined.removed_steiner;
-    report_.inserted_points = refined.inserted - refined.inserted_on_boundary;
-    describe_insertions(refined.inserted_on_boundary, report_);
-    report_.max_error = range > 0 ? refined.max_error / range : 0;  // what is constant stays so
+    RefineReport refined(job_.memory);
+    if (!collapsed || !is_the_original(mesh_, origin_, report_))
+      refined = tetlod::refine(original_.view, options, job_, mesh_);
+    describe_refinement(refined, original_, report_);
     beyond_ = std::move(refined.beyond_bound);
   }
 

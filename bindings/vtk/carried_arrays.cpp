@@ -108,21 +108,21 @@ vtkSmartPointer<vtkDataArray> fetch_carried(const tetlod::Context &context, cons
   return fetched;
 }
 
-void fetch_cell_arrays(const tetlod::Context &context, const CellArrays &arrays, int64_t tets,
-                       vtkDataSetAttributes &data) {
-  if (arrays.all.empty()) return;
+std::vector<vtkSmartPointer<vtkDataArray>> fetch_all(const tetlod::Context &context, const CellArrays &arrays,
+                                                     int64_t tets) {
+  std::vector<vtkSmartPointer<vtkDataArray>> all;
+  if (arrays.all.empty()) return all;
   vtkNew<vtkDoubleArray> numbers;
   numbers->SetNumberOfValues(tets);
   fetch(context, kTetNumbers, *numbers);
   for (const CellArrays::One &one : arrays.all) {
-    auto values = array_for(*one.original, one.original->GetDataType(), tets);
+    all.push_back(array_for(*one.original, one.original->GetDataType(), tets));
     for (vtkIdType t = 0; t < tets; t++) {
       const auto of_tet = vtkIdType(numbers->GetValue(t));
-      values->SetTuple(t, arrays.cells ? vtkIdType(arrays.cells->GetComponent(of_tet, 0)) : of_tet, one.original);
+      all.back()->SetTuple(t, arrays.cells ? vtkIdType(arrays.cells->GetComponent(of_tet, 0)) : of_tet, one.original);
     }
-    const int at = data.AddArray(values);
-    if (one.attribute >= 0) data.SetActiveAttribute(at, one.attribute);
   }
+  return all;
 }
 
 }  // namespace tetlod_vtk

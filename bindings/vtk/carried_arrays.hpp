@@ -2,7 +2,6 @@
 #pragma once
 
 #include <vtkDataArray.h>
-#include <vtkDataSetAttributes.h>
 #include <vtkSmartPointer.h>
 #include <vtkUnstructuredGrid.h>
 
@@ -58,7 +57,7 @@ vtkSmartPointer<vtkDataArray> fetch_carried(const tetlod::Context &context, cons
 constexpr char kTetNumbers[] = "tet numbers";
 
 // All of them, on the context's result.
-void fetch_cell_arrays(const tetlod::Context &context, const CellArrays &arrays, int64_t tets,
-                       vtkDataSetAttributes &data);
+std::vector<vtkSmartPointer<vtkDataArray>> fetch_all(const tetlod::Context &context, const CellArrays &arrays,
+                                                     int64_t tets);
 
 }  // namespace tetlod_vtk

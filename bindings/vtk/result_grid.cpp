@@ -47,6 +47,11 @@ void fill_scalars(const tetlod::Context &context, const OriginalArrays &arrays, 
   grid.GetPointData()->SetScalars(values);
 }
 
+void add(vtkDataArray *array, int attribute, vtkDataSetAttributes &data) {
+  const int at = data.AddArray(array);
+  if (attribute >= 0) data.SetActiveAttribute(at, attribute);
+}
+
 }  // namespace
 
 void fill_result(const tetlod::Context &context, const OriginalArrays &arrays, vtkUnstructuredGrid &grid) {
@@ -54,11 +59,11 @@ void fill_result(const tetlod::Context &context, const OriginalArrays &arrays, v
   fill_points(context, *arrays.points, counts.points, grid);
   fill_tets(context, counts.tets, grid);
   fill_scalars(context, arrays, counts.points, grid);
-  for (const CarriedArray &other : arrays.others) {
-    const int at = grid.GetPointData()->AddArray(fetch_carried(context, other, counts.points));
-    if (other.attribute >= 0) grid.GetPointData()->SetActiveAttribute(at, other.attribute);
-  }
-  fetch_cell_arrays(context, arrays.of_cells, counts.tets, *grid.GetCellData());
+  for (const CarriedArray &other : arrays.others)
+    add(fetch_carried(context, other, counts.points), other.attribute, *grid.GetPointData());
+  const auto of_cells = fetch_all(context, arrays.of_cells, counts.tets);
+  for (std::size_t i = 0; i < of_cells.size(); i++)
+    add(of_cells[i], arrays.of_cells.all[i].attribute, *grid.GetCellData());
 }
 
 }  // namespace tetlod_vtk

@@ -73,5 +73,33 @@ TEST_F(Presets, LeaveARatioAsItIs) {
   EXPECT_NEAR(double(report.tets_out) / double(report.tets_in), 0.3, 0.009);
 }
 
+/// Nothing to take away is nothing to change.
+TEST_F(Presets, KeepTheOriginalWhereAllIsKept) {
+  for (std::int32_t preset : {TETLOD_PRESET_FAST, TETLOD_PRESET_ACCURATE}) {
+    const Context context = make_context();
+    submit(context.get(), cube);
+    ASSERT_EQ(tetlod_set_preset(context.get(), preset), TETLOD_OK);
+    ASSERT_EQ(tetlod_set_real(context.get(), TETLOD_OPT_TARGET_RATIO, 1), TETLOD_OK);
+    ASSERT_EQ(tetlod_run(context.get()), TETLOD_OK) << message_of(context.get());
+    const tetlod_run_report report = report_of(context.get());
+    ASSERT_EQ(report.points_out, std::int64_t(cube.values.size()));
+    EXPECT_EQ(report.tets_out, std::int64_t(cube.corners.size() / 4));
+    EXPECT_EQ(report.max_error, 0);
+    std::vector<double> xyz(cube.xyz.size()), values(cube.values.size());
+    tetlod_array array = array_of(TETLOD_FLOAT64, values.size(), 3, xyz.data());
+    ASSERT_EQ(tetlod_fetch_points(context.get(), &array), TETLOD_OK);
+    array = array_of(TETLOD_FLOAT64, values.size(), 1, values.data());
+    ASSERT_EQ(tetlod_fetch_scalars(context.get(), &array), TETLOD_OK);
+    const auto in_order = [](const std::vector<double> &points, const std::vector<double> &at) {
+      std::vector<std::array<double, 4>> all;
+      for (std::size_t v = 0; v < at.size(); v++)
+        all.push_back({points[3 * v], points[3 * v + 1], points[3 * v + 2], at[v]});
+      std::sort(all.begin(), all.end());
+      return all;
+    };
+    EXPECT_EQ(in_order(xyz, values), in_order(cube.xyz, cube.values));
+  }
+}
+
 }  // namespace
 }  // namespace tetlod_test
