@@ -70,7 +70,7 @@ enum {
   /* the call */
   TETLOD_ERR_ARGUMENT = 10,    /* null or misaligned pointer, type, shape or stride that makes no sense */
   TETLOD_ERR_OPTION = 11,      /* unknown option, or value out of its bounds */
-  TETLOD_ERR_STATE = 12,       /* called in the wrong order: nothing submitted, nothing run, inside a callback */
+  TETLOD_ERR_STATE = 12,       /* called in the wrong order: nothing submitted or run, in a callback; mesh changed */
   TETLOD_ERR_STRUCT_SIZE = 13, /* struct_size not set, or api_version newer or of another major */
   TETLOD_ERR_BUFFER_SIZE = 14, /* the destination has room for fewer tuples than the result has */
   /* resources */

@@ -119,7 +119,8 @@ bool is_shortage(int error) {
 void check_executable(const std::string &path) {
   if (::access(path.c_str(), X_OK) == 0) return;
   const int error = errno;
-  fail(Status::backend_missing, "cannot execute %s: %s", path.c_str(), error_text(error).c_str());
+  throw Error(Status::backend_missing, "cannot execute " + path + ": " + error_text(error) +
+                                           "; TETLOD_REMESHER or tetlod_config.remesher may name another");
 }
 
 /// The host's, but for glibc's allocator: huge pages, where the system has them, and what was freed is used again. The

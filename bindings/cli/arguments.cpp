@@ -45,7 +45,7 @@ constexpr NumberOption kPolicyOptions[] = {
     {"on-duplicate", "tets given twice: dropped"},
     {"on-overlap", "inner tets that overlap: kept"},
     {"on-unused", "points that no tet uses: ignored"},
-    {"on-nonfinite", "points without a finite value: ignored with their tets"},
+    {"on-nonfinite", "points without a finite value: ignored with their tets (coordinates have to be finite)"},
 };
 
 tetlod_bounds bounds_of(int32_t option) {

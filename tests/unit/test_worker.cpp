@@ -236,12 +236,13 @@ TEST_F(WorkerTest, LogMayThrow) {
 TEST_F(WorkerTest, IsMissing) {
   use("/nonexistent/tetlod-remesh");
   EXPECT_EQ(thrown(), Status::backend_missing);
-  EXPECT_EQ(message, "cannot execute /nonexistent/tetlod-remesh: No such file or directory");
+  const std::string why = ": No such file or directory; TETLOD_REMESHER or tetlod_config.remesher may name another";
+  EXPECT_EQ(message, "cannot execute /nonexistent/tetlod-remesh" + why);
   std::string deep;
   while (deep.size() < 700) deep += "/nonexistent";
   use(deep.c_str());
   EXPECT_EQ(thrown(), Status::backend_missing);
-  EXPECT_EQ(message, "cannot execute " + deep + ": No such file or directory");
+  EXPECT_EQ(message, "cannot execute " + deep + why);
   for (const char *path : {"/etc/passwd", "/tmp", "/bin/true", "/dev/null"}) {
     use(path);
     EXPECT_EQ(thrown(), Status::backend_missing) << path;
