@@ -151,7 +151,7 @@ struct CollapseSizes {
 /// boundary before.
 inline CollapseSizes collapse_sizes(const Budget &budget, const Options &options, const Report &report) {
   constexpr std::int64_t part = 400;
-  if (keeps_all(budget, report)) return {budget.tets, 0};
+  if (options.max_error <= 0 && keeps_all(budget, report)) return {budget.tets, 0};
   const std::int64_t most = before_lowering(budget.tets, options.max_error);
   if (budget.enough > 0) return {budget.least, 0};
   const bool lowers = options.effort == effort_accurate && most < budget.tets && options.max_deviation <= 0;

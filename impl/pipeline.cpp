@@ -203,7 +203,7 @@ class Pipeline {
         budget_.tets, before, report_.steiner_points, follows_field,    rounds_of(options_, report_),
         bound,        kept,   boundary_.triangles,    deviation_limit()};
     RefineReport refined(job_.memory);
-    if (!collapsed || !is_the_original(mesh_, origin_, report_))
+    if (bound > 0 || !collapsed || !is_the_original(mesh_, origin_, report_))
       refined = tetlod::refine(original_.view, options, job_, mesh_);
     describe_refinement(refined, original_, report_);
     beyond_ = std::move(refined.beyond_bound);
