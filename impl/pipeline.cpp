@@ -203,6 +203,7 @@ class Pipeline {
         budget_.tets, before, report_.steiner_points, follows_field,    rounds_of(options_, report_),
         bound,        kept,   boundary_.triangles,    deviation_limit()};
     RefineReport refined(job_.memory);
+    // A bound is looked for all the same: the sides of a slit may be nearer than weights are rounded by.
     if (bound > 0 || !collapsed || !is_the_original(mesh_, origin_, report_))
       refined = tetlod::refine(original_.view, options, job_, mesh_);
     describe_refinement(refined, original_, report_);
