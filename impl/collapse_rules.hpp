@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "geometry.hpp"
-#include "kd_tree.hpp"
+#include "mesh.hpp"
 
 namespace tetlod {
 
@@ -42,15 +42,6 @@ struct Star {
   Box box() const;
 };
 
-/// The triangles of the surface as it is now, for the rule that looks at what is far along the surface but near in
-/// space.
-struct SurfaceNow {
-  const KdTree &tree;
-  Span<const Vec3> points;
-  Span<const Triangle> triangles;  ///< cut vertices, to look up points
-  Span<const std::int32_t> id;     ///< of each cut vertex
-};
-
 /// The ring passes twice through one point of the uncut surface: two edges of the star would be one. The link
 /// condition, where the surface is not cut.
 bool pinches_ring(const Star &star);
@@ -60,7 +51,5 @@ bool turns_too_far(const Star &star);
 bool folds(const Star &star);
 /// A triangle gets worse than a sliver, and keeps less than this part of the quality of the worst that there was.
 bool makes_sliver(const Star &star, double kept = 1);
-/// A spoke reaches another triangle of the surface or another spoke.
-bool crosses_surface(const Star &star, const SurfaceNow &surface);
 
 }  // namespace tetlod

@@ -3,11 +3,10 @@
 #include <OpenMesh/Core/Mesh/TriConnectivity.hh>
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
+#include "boundary_limits.hpp"
 #include "collapse_log.hpp"
 #include "collapse_rules.hpp"
-#include "deviation.hpp"
 #include "edge_queue.hpp"
 #include "field_quadric.hpp"
 #include "half_edges.hpp"
@@ -36,7 +35,6 @@ class Decimator {
   Decimator(const Surface &surface, const SurfaceTopology &topology, Span<const std::uint8_t> locked,
             const DecimateOptions &options, CollapseLog &log, Job &job)
       : surface_(surface),
-        careful_(options.careful),
         job_(job),
         log_(log),
         lambda_(options.lambda),
@@ -46,9 +44,9 @@ class Decimator {
     copy_connectivity(topology, job, mesh_);
     copy_triangles(topology);
     for (std::size_t v = 0; v < point_.size(); v++) update_sums(VertexHandle(int(v)));
-    if (options.max_deviation > 0) deviation_.emplace(surface, options.max_deviation, job);
+    if (options.max_deviation > 0) limits_.limit_deviation(surface, options.max_deviation, job);
     if (options.sees_fields()) quadrics_.find(options.field_weight, triangle_, point_, values_);
-    if (careful_) build_tree();
+    if (options.careful) limits_.guard_crossings(point_, triangle_, id_, job);
   }
 
   std::int64_t edges() const { return edges_; }
@@ -108,14 +106,6 @@ class Decimator {
     }
     edges_ = std::int64_t(mesh_.n_edges());
     stamp_.assign(mesh_.n_edges(), 0);
-  }
-
-  /// Of the faces that are left; again when they are half as many, or it would be mostly empty.
-  void build_tree() {
-    Array<Box> boxes(triangle_.size(), &job_.memory);
-    for (auto f = mesh_.faces_sbegin(); f != mesh_.faces_end(); ++f) at(boxes, *f) = box_of(point_, at(triangle_, *f));
-    tree_.build(std::move(boxes), 4, job_, 0.5);
-    edges_in_tree_ = edges_;
   }
 
   // ---- Geometry of what is there
@@ -286,8 +276,7 @@ class Decimator {
     if (!std::isfinite(placement.cost)) return;
     if (leaves_pillow(h) || joins_sheets(h) || !look_around(h, placement.point)) return;
     if (pinches_ring(star_) || turns_too_far(star_) || folds(star_) || makes_sliver(star_)) return;
-    if (deviation_ && deviation_->is_passed(star_)) return;
-    if (careful_ && crosses_surface(star_, {tree_, point_, triangle_, id_})) return;
+    if (limits_.are_passed(star_)) return;
     collapse(h, placement);
   }
 
@@ -304,16 +293,14 @@ class Decimator {
     }
     if (!quadrics_.empty()) quadrics_.merge(from.idx(), to.idx());
     for (HalfedgeHandle side : {h, o}) {
-      if (careful_) tree_.refit(mesh_.face_handle(side).idx(), Box());
       const HalfedgeHandle next = mesh_.next_halfedge_handle(side);
       for (HalfedgeHandle gone : {side, next, mesh_.next_halfedge_handle(next)})
         queue_.remove(mesh_.edge_handle(gone).idx());
     }
     collapse_edge(h, mesh_);
-    if (deviation_) deviation_->move_on(star_);
+    limits_.move_on(star_);
     edges_ -= 3;
     update_around(to);
-    if (careful_ && edges_ < edges_in_tree_ / 2) build_tree();
   }
 
   void update_around(VertexHandle centre) {
@@ -334,7 +321,6 @@ class Decimator {
                      apex(mesh_, spoke).idx()};
     at(triangle_, face) = t;
     at(plane_, face) = plane_of(point(t[0]), point(t[1]), point(t[2]));
-    if (careful_) tree_.refit(face.idx(), box_of(point_, t));
   }
 
   void update_costs_at(VertexHandle v) {
@@ -347,12 +333,11 @@ class Decimator {
   }
 
   const Surface &surface_;
-  bool careful_;
   Job &job_;
   CollapseLog &log_;
   double lambda_;
   bool by_length_ = false;
-  std::int64_t edges_ = 0, edges_in_tree_ = 0;
+  std::int64_t edges_ = 0;
   MemoryCharge charge_;
   Mesh mesh_;
   Array<Vec3> point_{&job_.memory};
@@ -361,13 +346,12 @@ class Decimator {
   Array<std::uint8_t> locked_{&job_.memory}, touching_{&job_.memory};
   Array<Triangle> triangle_{&job_.memory};
   Array<TrianglePlane> plane_{&job_.memory};
-  std::optional<DeviationLimit> deviation_;
+  BoundaryLimits limits_;
   FieldQuadrics<m> quadrics_{job_.memory};  // empty: the paper's cost
   Array<VolumeSums> volume_{&job_.memory};
   Array<LinkSums> link_{&job_.memory};
   Array<std::int32_t> stamp_{&job_.memory};
   std::int32_t now_ = 0;
-  KdTree tree_{job_.memory};
   EdgeQueue queue_;
   Star star_{job_.memory};
 };

@@ -3,10 +3,9 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <optional>
 
 #include "begin_collapses.hpp"
-#include "deviation.hpp"
+#include "boundary_limits.hpp"
 #include "solid_blocks.hpp"
 #include "solid_costs.hpp"
 #include "solid_places.hpp"
@@ -52,7 +51,8 @@ class SolidDecimator {
     }
     if (!options.holds_bound) places_.give_way(progress_.gave_way);
     if (options.hasty) progress_.far = SolidProgress::far_in_haste;
-    if (options.max_deviation > 0) deviation_.emplace(surface, options.max_deviation, job);
+    if (options.max_deviation > 0) limits_.limit_deviation(surface, options.max_deviation, job);
+    if (options.careful) limits_.guard_crossings(mesh_.points, mesh_.triangles, {}, job);
   }
 
   void run() {
@@ -199,10 +199,10 @@ class SolidDecimator {
     return order;
   }
 
-  /// Few are soon done; what bounds the deviation is one for all; and where most wait, one block gets on.
+  /// Few are soon done; what limits the boundary is one for all; and where most wait, one block gets on.
   std::size_t most_blocks(std::size_t items) const {
     constexpr std::size_t few = 512;
-    return items < few || deviation_ || progress_.most_waited ? 1 : SolidBlocks::most;
+    return items < few || !limits_.empty() || progress_.most_waited ? 1 : SolidBlocks::most;
   }
 
   void collapse_in_block(double limit, Work &work, CollapseRoom &room) {
@@ -236,7 +236,7 @@ class SolidDecimator {
   /// Now and then, and when new values may begin near the size: as many tets as there are with gaps were left last
   /// time.
   bool gaps_are_due() const {
-    if (deviation_ || count_ <= options_.tets) return false;
+    if (!limits_.empty() || count_ <= options_.tets) return false;
     const std::int64_t near = std::min(2 * size(), most_for_new_values());
     const bool comes_near = progress_.follows() && count_ <= near && std::int64_t(mesh_.tets.size()) > near;
     return comes_near || count_ < progress_.next_closing;
@@ -338,12 +338,12 @@ class SolidDecimator {
 
   void make(const SolidCollapse<m> &collapse, Work &work, CollapseRoom &room) {
     const std::int32_t v = collapse.edge.stays;
-    if (deviation_ && collapse.of_boundary) {
-      if (deviation_->is_passed(collapse.star)) {
+    if (collapse.of_boundary) {
+      if (limits_.are_passed(collapse.star)) {
         costs_.find_cheapest(collapse.found_at, work.edges, cheapest(collapse.found_at).cost);
         return;
       }
-      deviation_->move_on(collapse.star);
+      limits_.move_on(collapse.star);
     }
     mesh_.collapse(collapse.edge, collapse.place, room);
     if (progress_.follows()) progress_.into[std::size_t(collapse.edge.gone)] = v;
@@ -371,7 +371,7 @@ class SolidDecimator {
   SolidBlocks blocks_;
   Array<CollapseRoom> rooms_;  // of each block
   Array<Work> works_;
-  std::optional<DeviationLimit> deviation_;
+  BoundaryLimits limits_;
   Array<std::int32_t> left_;
 };
 

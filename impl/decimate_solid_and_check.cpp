@@ -39,7 +39,8 @@ std::string check_surface_of(const SurfaceTopology &topology, std::size_t fields
     refuse_nested_solids(coarse.surface, coarse.topology, 0, job);
     return {};
   } catch (const Error &error) {
-    if (error.status() == Status::mesh_intersecting || error.status() == Status::mesh_nonmanifold) return error.what();
+    coarse.meets_itself = error.status() == Status::mesh_intersecting;
+    if (coarse.meets_itself || error.status() == Status::mesh_nonmanifold) return error.what();
     throw;
   }
 }
@@ -78,6 +79,17 @@ bool lower(const SolidOptions &options, std::int64_t most, const SurfaceTopology
   return true;
 }
 
+std::string decimate_and_check(const MeshView &original, const Boundary &boundary, const Surface &surface,
+                               const SurfaceTopology &topology, const SolidOptions &options, std::int64_t lowered,
+                               SolidHistory &history, Job &job, CoarseSolid &coarse) {
+  coarse.reused = decimate_solid(original, boundary, surface, options, history, job, coarse.mesh, coarse.origin);
+  if (lowered > 0 && lower(options, lowered, topology, surface, job, coarse)) return {};
+  const std::string wrong = check(options, topology, original.fields, job, coarse);
+  if (coarse.is_sound)
+    coarse.deviation = largest_deviation(surface, coarse.surface, samples_for(options.max_deviation), job);
+  return wrong;
+}
+
 }  // namespace
 
 std::string decimate_solid_and_check(const MeshView &original, const Boundary &boundary, const Surface &surface,
@@ -85,12 +97,15 @@ std::string decimate_solid_and_check(const MeshView &original, const Boundary &b
                                      SolidHistory &history, Job &job, CoarseSolid &coarse) {
   const Array<std::uint8_t> touching = touching_vertices(original, surface, topology, job);
   options.touching = touching;
-  coarse.reused = decimate_solid(original, boundary, surface, options, history, job, coarse.mesh, coarse.origin);
-  if (lowered > 0 && lower(options, lowered, topology, surface, job, coarse)) return {};
-  const std::string wrong = check(options, topology, original.fields, job, coarse);
-  if (coarse.is_sound)
-    coarse.deviation = largest_deviation(surface, coarse.surface, samples_for(options.max_deviation), job);
-  return wrong;
+  const auto decimate = [&] {
+    return decimate_and_check(original, boundary, surface, topology, options, lowered, history, job, coarse);
+  };
+  const std::string wrong = decimate();
+  if (!coarse.meets_itself) return wrong;
+  if (job.log) job.log(1, ("edges collapse again, with care: " + wrong).c_str());
+  coarse = CoarseSolid(job.memory);
+  options.careful = true;
+  return decimate();
 }
 
 }  // namespace tetlod

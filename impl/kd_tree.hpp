@@ -45,6 +45,9 @@ class KdTree {
     split({entries.data(), entries.size()}, 0, 0, -1, job, fraction);
   }
 
+  /// Anew, of what is left in it.
+  void rebuild(Job &job) { build(Array<Box>(std::move(boxes_)), leaf_, job, 0.5); }
+
   bool empty() const { return nodes_.empty(); }
   const Box &box() const { return nodes_[0].box; }
 

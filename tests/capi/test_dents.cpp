@@ -107,5 +107,33 @@ TEST(Dents, WhatIsInThemStaysOutside) {
   for (double ratio : {0.05, 0.04, 0.03}) expect_sound(0.015, 0.0001, ratio);
 }
 
+/// Which TetGen would not: it knew a way with a tetrahedron for the large cube alone, 0.59 of the diagonal off.
+TEST(Dents, CollapsesGoAroundWhatIsInThem) {
+  const Cube cube = dented(0.01, 0.002);
+  for (double ratio : {0.035, 0.03}) {
+    const Context context = make_context();
+    submit(context.get(), cube);
+    ASSERT_EQ(tetlod_set_real(context.get(), TETLOD_OPT_TARGET_RATIO, ratio), TETLOD_OK);
+    ASSERT_EQ(tetlod_run(context.get()), TETLOD_OK) << message_of(context.get());
+    const tetlod_run_report report = report_of(context.get());
+    EXPECT_EQ(report.remesh_attempts, 0);
+    EXPECT_LE(double(report.tets_out), 1.03 * ratio * double(report.tets_in));
+    EXPECT_LE(report.max_deviation, 0.01);
+  }
+}
+
+/// Over which the boundary was decimated, so that TetGen refused it.
+TEST(Dents, TheDecimatedBoundaryGoesAroundWhatIsInThem) {
+  const Cube cube = dented(0.01, 0.002);
+  for (double sigma : {0.3, 0.05}) {
+    const Context context = make_context();
+    submit(context.get(), cube);
+    ASSERT_EQ(tetlod_set_sigma(context.get(), sigma), TETLOD_OK);
+    ASSERT_EQ(tetlod_run(context.get()), TETLOD_OK) << message_of(context.get());
+    EXPECT_EQ(report_of(context.get()).boundary_retries, 0);
+    EXPECT_EQ(Solids(context.get()).intruders(), 0);
+  }
+}
+
 }  // namespace
 }  // namespace tetlod_test
