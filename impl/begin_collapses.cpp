@@ -101,13 +101,15 @@ template <std::size_t m>
 CollapseStart<m> begin_collapses(const MeshView &original, const Boundary &boundary, const FieldsAsLengths<m> &fields,
                                  const SolidOptions &options, SolidHistory &history, Job &job) {
   if (!options.restored.empty()) history.forget(job.memory);  // of what does not know them, to make room
-  const bool keeps_states = options.max_deviation <= 0 && options.restored.empty() && !options.careful;
+  const bool keeps_states = options.max_deviation <= 0 && options.restored.empty() &&
+                            options.careful_from < std::int64_t(original.tets.size());
   if (keeps_states && history.is_earlier()) {
     if (auto start = warm_start(original, boundary, fields, options, history, job)) return std::move(*start);
     history.forget_earlier(job.memory);
   }
+  const std::int64_t least = std::max(options.enough, options.careful_from);
   const SolidState<m> *const state =
-      keeps_states ? history.before<m>(options.tets, options.enough, job.memory) : nullptr;
+      keeps_states ? history.before<m>(options.tets, options.enough, least, job.memory) : nullptr;
   if (state)
     return {SolidMesh<m>(SolidRemains<m>(state->remains, job.memory), job), SolidProgress(state->progress, job.memory),
             true};

@@ -17,6 +17,8 @@ class BoundaryLimits {
     guard_.emplace(points, triangles, id, job);
   }
 
+  bool guards_crossings() const { return guard_.has_value(); }
+
   bool empty() const { return !deviation_ && !guard_; }
   bool are_passed(const Star &star) {
     return (deviation_ && deviation_->is_passed(star)) || (guard_ && guard_->is_passed(star));

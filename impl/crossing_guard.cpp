@@ -92,16 +92,14 @@ struct CrossingGuard::Other {
 
 CrossingGuard::CrossingGuard(const Array<Vec3> &points, const Array<Triangle> &triangles, Span<const std::int32_t> id,
                              Job &job)
-    : points_(points),
-      triangles_(triangles),
-      id_(id),
-      job_(job),
-      tree_(job.memory),
-      left_(triangles.size()),
-      in_tree_(triangles.size()) {
-  Array<Box> boxes(&job.memory);
-  boxes.reserve(triangles.size());
-  for (const Triangle &t : triangles) boxes.push_back(box_of(points, t));
+    : points_(points), triangles_(triangles), id_(id), job_(job), tree_(job.memory), left_(0) {
+  Array<Box> boxes(triangles.size(), Box(), &job.memory);
+  for (std::size_t t = 0; t < triangles.size(); t++) {
+    if (triangles[t][0] < 0) continue;
+    boxes[t] = box_of(points, triangles[t]);
+    left_++;
+  }
+  in_tree_ = left_;
   tree_.build(std::move(boxes), leaf, job, 0);
 }
 

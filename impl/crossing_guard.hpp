@@ -7,8 +7,9 @@ namespace tetlod {
 
 class CrossingGuard {
  public:
-  /// The arrays are looked at as they are whenever a collapse is; they must live as long, and stay in place. id: of
-  /// each point: those that are the same in the uncut surface have the same; empty: none are.
+  /// The arrays are looked at as they are whenever a collapse is; they must live as long, and stay in place.
+  /// Triangles whose first corner is -1 are none. id: of each point: those that are the same in the uncut surface have
+  /// the same; empty: none are.
   CrossingGuard(const Array<Vec3> &points, const Array<Triangle> &triangles, Span<const std::int32_t> id, Job &job);
 
   /// Whether a spoke would reach another triangle of the surface or another spoke, or the star pass over a part of it.

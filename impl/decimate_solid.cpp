@@ -52,7 +52,6 @@ class SolidDecimator {
     if (!options.holds_bound) places_.give_way(progress_.gave_way);
     if (options.hasty) progress_.far = SolidProgress::far_in_haste;
     if (options.max_deviation > 0) limits_.limit_deviation(surface, options.max_deviation, job);
-    if (options.careful) limits_.guard_crossings(mesh_.points, mesh_.triangles, {}, job);
   }
 
   void run() {
@@ -60,6 +59,8 @@ class SolidDecimator {
     const std::int64_t near_enough = options_.tets + options_.tets / 1000;  // the largest errors get a little less then
     for (double limit; count_ > near_enough && (limit = limit_of_round()) < infinity;) {
       if (count_ < options_.enough && limit > options_.dearest) break;
+      if (count_ <= options_.careful_from && !limits_.guards_crossings())
+        limits_.guard_crossings(mesh_.points, mesh_.triangles, {}, job_);
       job_.poll(1 - double(count_ - options_.tets) / surplus);
       collapse_some(limit);
       keep_where(left_, job_, [&](std::size_t i) { return mesh_.has_vertex(left_[i]); });

@@ -22,7 +22,7 @@ struct SolidOptions {
   Span<const std::uint8_t> restored;  ///< others that do so this time; empty: none
   Span<const std::uint8_t> touching;  ///< original vertices where the solid touches itself; empty: none
   std::size_t later = 0;              ///< bytes in use when the run is further on, without the states that it keeps
-  bool careful = false;               ///< no collapse makes the boundary cross itself; then no history is used
+  std::int64_t careful_from = 0;      ///< with so many tets or fewer no collapse takes the boundary through itself
   bool one_of_many = false;           ///< other sizes are likely to follow: states are worth some memory
 };
 

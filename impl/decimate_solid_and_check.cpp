@@ -1,5 +1,7 @@
 #include "decimate_solid_and_check.hpp"
 
+#include <algorithm>
+
 #include "deviation.hpp"
 #include "find_crossing.hpp"
 #include "lower_deviation.hpp"
@@ -12,6 +14,8 @@ namespace tetlod {
 namespace {
 
 constexpr double most_missed = 0.01;
+/// Times the tets that are left: before, hardly any collapse takes the boundary through itself, as triangles are small.
+constexpr std::int64_t late = 8;
 
 Array<std::uint8_t> touching_vertices(const MeshView &original, const Surface &surface, const SurfaceTopology &topology,
                                       Job &job) {
@@ -100,12 +104,18 @@ std::string decimate_solid_and_check(const MeshView &original, const Boundary &b
   const auto decimate = [&] {
     return decimate_and_check(original, boundary, surface, topology, options, lowered, history, job, coarse);
   };
-  const std::string wrong = decimate();
-  if (!coarse.meets_itself) return wrong;
-  if (job.log) job.log(1, ("edges collapse again, with care: " + wrong).c_str());
-  coarse = CoarseSolid(job.memory);
-  options.careful = true;
-  return decimate();
+  std::string wrong = decimate();
+  const std::int64_t reused = coarse.reused;  // of other runs
+  const auto all = std::int64_t(original.tets.size()), few = late * std::int64_t(coarse.mesh.tets.size());
+  bool again = coarse.meets_itself;
+  for (options.careful_from = std::min(few, all); again; options.careful_from = all) {
+    if (job.log) job.log(1, ("edges collapse again, with more care: " + wrong).c_str());
+    coarse = CoarseSolid(job.memory);
+    wrong = decimate();
+    coarse.reused = reused;
+    again = !wrong.empty() && options.careful_from < all;
+  }
+  return wrong;
 }
 
 }  // namespace tetlod

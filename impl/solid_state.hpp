@@ -90,13 +90,14 @@ class SolidHistory {
     tets_of_cost_ = tets;
   }
 
-  /// The coarsest of the states that the rounds to a target go through, of so many tets at least; null: none is kept.
+  /// The coarsest of the states of `least` tets or more that the rounds to a target go through, or to `tets` if those
+  /// are more; null: none is kept.
   template <std::size_t m>
-  const SolidState<m> *before(std::int64_t target, std::int64_t tets, Memory &memory) {
+  const SolidState<m> *before(std::int64_t target, std::int64_t tets, std::int64_t least, Memory &memory) {
     const SolidState<m> *last = nullptr;
     for (const SolidState<m> &state : states<m>(memory))
       if (target <= state.progress.largest_target && state.progress.leads_to(std::max(target, tets)) &&
-          std::int64_t(state.remains.tets.size()) >= tets)
+          std::int64_t(state.remains.tets.size()) >= least)
         last = &state;
     return last;
   }
