@@ -437,8 +437,8 @@ TETLOD_API tetlod_status tetlod_estimate_memory(tetlod_context *context, uint64_
 TETLOD_API tetlod_status tetlod_run(tetlod_context *context);
 
 /* Estimates the field error of the last result [4], at the original vertices and at samples_per_tet (0 to 100) random
- * samples in each original tet. The input of the run must still be submitted.
- * TETLOD_ERR_STATE: it is not, or points or tets changed. _STRUCT_SIZE, _MEMORY_LIMIT, _CANCELLED, _MESH_NONFINITE. */
+ * samples in each original tet. The input of the run must still be submitted: TETLOD_ERR_STATE if it is not, or points
+ * or tets changed. _STRUCT_SIZE, _MEMORY_LIMIT, TETLOD_ERR_CANCELLED, TETLOD_ERR_TIME_LIMIT, _MESH_NONFINITE. */
 TETLOD_API tetlod_status tetlod_measure_error(tetlod_context *context, int32_t samples_per_tet,
                                               tetlod_error_report *out);
 /* How many original (side 0) or result (side 1) vertices have a value in each of `bins` equal parts of the original's

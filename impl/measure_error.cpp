@@ -144,6 +144,7 @@ FieldError measure_error(const Input &input, const Options &options, const TetMe
     Boundary boundary(job.memory);
     prepare_with_boundary(input, options, job, original, boundary);
   }
+  job.enter(Stage::values);
   const auto measure = [&](const TetMesh &mesh) {
     return measure_error(original.view, original.scalar_max - original.scalar_min, mesh, samples_per_tet,
                          std::uint64_t(options.seed), job);

@@ -277,5 +277,46 @@ TEST(Faults, TimeLimits) {
   EXPECT_EQ(bytes_of(rerun.context.get()), wanted);
 }
 
+/// A mesh, its result, and what is heard while the error is measured.
+struct Measured {
+  Measured() {
+    submit(context.get(), cube);
+    tetlod_set_preset(context.get(), TETLOD_PRESET_FAST);
+    EXPECT_EQ(tetlod_run(context.get()), TETLOD_OK) << message_of(context.get());
+    tetlod_set_progress(context.get(), progress, this);
+  }
+  tetlod_status measure() {
+    calls = stage = 0;
+    fraction = 0;
+    return tetlod_measure_error(context.get(), 100, &report);
+  }
+  static std::int32_t progress(void *user, std::int32_t stage, double fraction) {
+    auto &self = *static_cast<Measured *>(user);
+    EXPECT_TRUE(stage > self.stage || (stage == self.stage && fraction >= self.fraction)) << stage << " " << fraction;
+    self.stage = stage;
+    self.fraction = fraction;
+    return ++self.calls == self.last;
+  }
+  Cube cube{20};
+  Context context = make_context();
+  tetlod_error_report report{sizeof report, 0, 0, 0, 0, 0, 0, 0};
+  int calls = 0, last = -1;
+  std::int32_t stage = 0;
+  double fraction = 0;
+};
+
+TEST(Faults, MeasuringTheErrorSaysHowFarItIsAndEndsWhenAsked) {
+  Measured measured;
+  ASSERT_EQ(measured.measure(), TETLOD_OK) << message_of(measured.context.get());
+  EXPECT_GT(measured.calls, 4);
+  EXPECT_STREQ(tetlod_stage_name(measured.stage), "values");
+  EXPECT_GT(measured.fraction, 0.5);
+  measured.last = measured.calls / 2;
+  EXPECT_EQ(measured.measure(), TETLOD_ERR_CANCELLED);
+  measured.last = -1;
+  ASSERT_EQ(tetlod_set_real(measured.context.get(), TETLOD_OPT_TIME_LIMIT, 1e-4), TETLOD_OK);
+  EXPECT_EQ(measured.measure(), TETLOD_ERR_TIME_LIMIT);
+}
+
 }  // namespace
 }  // namespace tetlod_test
