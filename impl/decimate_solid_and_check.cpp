@@ -49,6 +49,10 @@ std::string check_surface_of(const SurfaceTopology &topology, std::size_t fields
   }
 }
 
+bool misses_size(const SolidOptions &options, const TetMesh &mesh) {
+  return options.enough == 0 && double(mesh.tets.size()) > (1 + most_missed) * double(options.tets);
+}
+
 std::string check(const SolidOptions &options, const SurfaceTopology &topology, std::size_t fields, Job &job,
                   CoarseSolid &coarse) {
   TetMesh &mesh = coarse.mesh;
@@ -56,7 +60,7 @@ std::string check(const SolidOptions &options, const SurfaceTopology &topology, 
   if (wrong.empty()) wrong = check_volume(mesh.points, mesh.tets, mesh.boundary, 1, job);
   if (wrong.empty()) wrong = check_surface_of(topology, fields, job, coarse);
   coarse.is_sound = wrong.empty();
-  if (coarse.is_sound && options.enough == 0 && double(mesh.tets.size()) > (1 + most_missed) * double(options.tets))
+  if (coarse.is_sound && misses_size(options, mesh))
     return text("no edge is left to collapse at %zu tets", mesh.tets.size());
   return wrong;
 }
@@ -107,13 +111,14 @@ std::string decimate_solid_and_check(const MeshView &original, const Boundary &b
   std::string wrong = decimate();
   const std::int64_t reused = coarse.reused;  // of other runs
   const auto all = std::int64_t(original.tets.size()), few = late * std::int64_t(coarse.mesh.tets.size());
+  const bool can_reach_size = !misses_size(options, coarse.mesh);
   bool again = coarse.meets_itself;
   for (options.careful_from = std::min(few, all); again; options.careful_from = all) {
     if (job.log) job.log(1, ("edges collapse again, with more care: " + wrong).c_str());
     coarse = CoarseSolid(job.memory);
     wrong = decimate();
     coarse.reused = reused;
-    again = !wrong.empty() && options.careful_from < all;
+    again = !wrong.empty() && options.careful_from < all && (can_reach_size || !coarse.is_sound);
   }
   return wrong;
 }
