@@ -12,6 +12,7 @@
 #include "arguments.hpp"
 #include "failure.hpp"
 #include "interrupt.hpp"
+#include "notes.hpp"
 #include "output_file.hpp"
 #include "pictures.hpp"
 #include "progress_bar.hpp"
@@ -73,6 +74,7 @@ void run(const Arguments &arguments) {
   check_names(arguments.output, *original);
   stop_if_interrupted();
   vtkUnstructuredGrid *simplified = simplify(*filter, original, arguments, bar, *messages, notes);
+  add_notes(*filter, arguments, notes);
   seconds.measuring = filter->GetSecondsOfMeasuring();
   watch.lap();
   write_grid(result, simplified, *messages, notes);

@@ -71,6 +71,21 @@ TEST_F(Usage, WrongCommandLines) {
   expect_only_input();
 }
 
+TEST_F(Usage, OptionsWithoutMeaningAndAMissedSizeAreNoted) {
+  const Outcome usual = run_on({}, {"--target-ratio", "0.2"});
+  EXPECT_EQ(usual.err, "");
+  const Outcome unused = run_on({}, {"--target-ratio", "0.2", "--sigma", "0.5", "--rho", "0"});
+  EXPECT_EQ(unused.status, 0);
+  EXPECT_EQ(unused.err,
+            "tetlod: note: --rho has no meaning with a target ratio or a bound\n"
+            "tetlod: note: --sigma has no meaning with a target ratio or a bound\n");
+  EXPECT_EQ(run_on({}, {"--rho", "0"}).err, "");
+  const Outcome missed = run_on({}, {"--target-ratio", "0.0001"});
+  EXPECT_EQ(missed.status, 0);
+  EXPECT_NE(missed.err.find("note: a part of 0.0001 of the tets was asked for, and 0.0"), std::string::npos)
+      << missed.err;
+}
+
 TEST_F(Usage, FilesThatCannotBeRead) {
   const std::string out = folder / "out.vtu";
   expect_failure(run_tool({folder / "missing.vtu", out}), 1, "missing.vtu");

@@ -1,0 +1,37 @@
+#include "notes.hpp"
+
+#include <sstream>
+
+namespace cli {
+namespace {
+
+void note_unused_options(vtkTetlodSimplify &filter, const Arguments &arguments, std::vector<std::string> &notes) {
+  if (filter.GetOption("target-ratio") <= 0 && filter.GetOption("max-error") <= 0) return;
+  for (const char *name : {"rho", "sigma", "lambda", "min-distance"})
+    if (arguments.numbers.count(tetlod_option_from_name(name)) > 0)
+      notes.push_back(std::string("--") + name + " has no meaning with a target ratio or a bound");
+}
+
+void note_missed_size(vtkTetlodSimplify &filter, std::vector<std::string> &notes) {
+  constexpr double usual = 1.03;  // what is within that is met
+  const double asked = filter.GetOption("target-ratio");
+  if (asked <= 0 || filter.GetOption("max-error") > 0) return;
+  tetlod_run_report report{};
+  report.struct_size = sizeof report;
+  check(tetlod_fetch_report(filter.GetContext(), &report), filter.GetContext());
+  const double kept = static_cast<double>(report.tets_out) / static_cast<double>(report.tets_in - report.dropped_tets);
+  if (kept <= usual * asked) return;
+  std::ostringstream text;
+  text << "a part of " << asked << " of the tets was asked for, and " << kept
+       << " is left: no way to less was found that keeps the topology";
+  notes.push_back(text.str());
+}
+
+}  // namespace
+
+void add_notes(vtkTetlodSimplify &filter, const Arguments &arguments, std::vector<std::string> &notes) {
+  note_unused_options(filter, arguments, notes);
+  note_missed_size(filter, notes);
+}
+
+}  // namespace cli
