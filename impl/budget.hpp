@@ -88,9 +88,10 @@ inline Budget budget_of(double ratio, const Report &report) {
   Budget budget;
   const double whole = double(report.tets_in - report.dropped_tets), triangles = double(report.boundary_triangles_in);
   budget.tets = std::int64_t(ratio * whole);
-  const double inner = tets_a_sample * ratio * double(report.interior_points_in);
-  const double most =
-      std::max(0.6 * double(budget.tets), (1 - spare) * double(budget.tets) - inner) * 2 / tets_a_boundary_point;
+  // Of the tets; of a mesh that is nearly all boundary, what the few vertices inside leave.
+  const double inside = tets_a_sample * ratio * double(report.interior_points_in);
+  const double share = std::max(0.6 * double(budget.tets), (1 - spare) * double(budget.tets) - inside);
+  const double most = share * 2 / tets_a_boundary_point;
   const double kept = std::min(boundary_share(ratio) * triangles, most);
   budget.sigma = kept / triangles;
   const double left = (1 - spare) * double(budget.tets) - kept / 2 * tets_a_boundary_point;
