@@ -50,6 +50,7 @@ TEST_F(Stamps, APolicyThatTurnsStrict) {
          c.values.push_back(c.values[std::size_t(c.corners[0])]);
          c.corners[0] = std::int32_t(c.values.size() - 1);
        }},
+      {TETLOD_OPT_ON_OVERLAP, [](Cube &c) { c.xyz[3 * (c.values.size() / 2)] += 0.4; }},  // the vertex in the middle
   };
   for (const Spoiled &defect : all) {
     cube = Cube(4);
