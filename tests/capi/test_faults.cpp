@@ -297,7 +297,7 @@ struct Measured {
     self.fraction = fraction;
     return ++self.calls == self.last;
   }
-  Cube cube{20};
+  Cube cube{12};
   Context context = make_context();
   tetlod_error_report report{sizeof report, 0, 0, 0, 0, 0, 0, 0};
   int calls = 0, last = -1;
