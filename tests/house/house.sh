@@ -34,8 +34,8 @@ rule 'OpenMesh is included in impl/decimate_boundary.cpp alone' \
   "$(lines "${include}OpenMesh/" 'impl/decimate_boundary\.cpp$' "${all[@]}")"
 rule 'TetGen is included under impl/tetlod-remesh and tests/bench/rivals alone' \
   "$(lines "${include}tetgen" 'impl/tetlod-remesh/|tests/bench/rivals/' "${all[@]}")"
-rule 'VTK is included under bindings/cli, bindings/vtk, bindings/paraview, tests/vtk and tests/bench alone' \
-  "$(lines "${include}vtk" 'bindings/cli/|bindings/vtk/|bindings/paraview/|tests/vtk/|tests/bench/' "${all[@]}")"
+rule 'VTK is included under bindings/cli, bindings/vtk, bindings/paraview, tests/vtk, tests/consumer and tests/bench alone' \
+  "$(lines "${include}vtk" 'bindings/cli/|bindings/vtk/|bindings/paraview/|tests/vtk/|tests/consumer/|tests/bench/' "${all[@]}")"
 rule 'impl/ does not know tetlod.h' \
   "$(lines "${include}([^\">]*/)?tetlod\.h" "$none" impl)"
 rule 'impl/tetlod-remesh is a program of its own: nobody includes from it' \

@@ -113,7 +113,7 @@ TEST_F(Crossings, AreThoseOfAllPairsAndWhatIsPassedOver) {
     start_with(seed, 30);
     CrossingGuard guard(surface.points, surface.triangles, {}, host.job);
     Star star(host.memory);
-    for (int i = 0; i < 250; i++) {
+    for (int i = 0; i < 120; i++) {
       const Triangle t = triangle(std::int32_t(random() % surface.triangles.size()));
       const Vec3 middle = 0.5 * (surface.points[std::size_t(t[0])] + surface.points[std::size_t(t[1])]);
       if (!look_at(t[0], t[1], middle + somewhere(0.2), star)) continue;
@@ -137,9 +137,9 @@ TEST_F(Crossings, AreThoseOfAllPairsAndWhatIsPassedOver) {
       }
     }
   }
-  EXPECT_GT(made, 50u);
-  EXPECT_GT(crossed, 10u);
-  EXPECT_GT(passed_over, 10u);
+  EXPECT_GT(made, 20u);
+  EXPECT_GT(crossed, 5u);
+  EXPECT_GT(passed_over, 5u);
 }
 
 }  // namespace
