@@ -81,11 +81,12 @@ struct CrossingGuard::Other {
     return false;
   }
 
-  /// At a corner.
-  bool touches(const Star &star) const {
-    return std::any_of(id.begin(), id.end(), [&](std::int32_t v) {
-      return v == star.centre_id || std::find(star.ring_id.begin(), star.ring_id.end(), v) != star.ring_id.end();
-    });
+  /// One that is none of the star's; null: there is none.
+  const Vec3 *outer_corner(const Star &star) const {
+    for (std::size_t k = 0; k < 3; k++)
+      if (id[k] != star.centre_id && std::find(star.ring_id.begin(), star.ring_id.end(), id[k]) == star.ring_id.end())
+        return &point[k];
+    return nullptr;
   }
 };
 
@@ -113,18 +114,18 @@ bool CrossingGuard::is_passed(const Star &star) const {
   });
 }
 
-/// Between the star before and after: as neither meets the triangle, all of it is if one corner is. What hangs together
-/// with the star is not: that would be all of its component.
+/// Between the star before and after: as neither meets the triangle, all of it is if one corner is. A solid may hang on
+/// the ring by an edge.
 bool CrossingGuard::passes_over(const Star &star, const Box &of_both, const Other &other) const {
-  const Vec3 &p = other.point[0];
-  if (distance2(of_both, p) > 0 || other.touches(star)) return false;
+  const Vec3 *const p = other.outer_corner(star);
+  if (!p || distance2(of_both, *p) > 0) return false;
   int depth = 0;
   for (std::int32_t face : star.old_faces) {
     const Other old(*this, face);
-    depth += depth_behind(old.point[0], old.point[1], old.point[2], old.box, p);
+    depth += depth_behind(old.point[0], old.point[1], old.point[2], old.box, *p);
   }
   for (std::size_t i = 0; i < star.size(); i++)
-    depth -= depth_behind(star.centre, star.ring[i], star.ring[star.after(i)], star.spoke_box[i], p);
+    depth -= depth_behind(star.centre, star.ring[i], star.ring[star.after(i)], star.spoke_box[i], *p);
   return depth != 0;
 }
 

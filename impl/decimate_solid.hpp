@@ -22,8 +22,9 @@ struct SolidOptions {
   Span<const std::uint8_t> restored;  ///< others that do so this time; empty: none
   Span<const std::uint8_t> touching;  ///< original vertices where the solid touches itself; empty: none
   std::size_t later = 0;              ///< bytes in use when the run is further on, without the states that it keeps
-  std::int64_t careful_from = 0;      ///< with so many tets or fewer no collapse takes the boundary through itself
-  bool one_of_many = false;           ///< other sizes are likely to follow: states are worth some memory
+  std::int64_t careful_from = 0;  ///< with so many tets or fewer no collapse takes the boundary through itself; from
+                                  ///< all tets on no state begins it, and none is kept
+  bool one_of_many = false;       ///< other sizes are likely to follow: states are worth some memory
 };
 
 /// `surface` is the boundary with points of its own. mesh: what is left, as many tets as there shall be, a thousandth

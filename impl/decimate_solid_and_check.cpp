@@ -38,13 +38,14 @@ std::string check_surface_of(const SurfaceTopology &topology, std::size_t fields
   make_surface({mesh.points, mesh.scalars, mesh.tets, fields}, mesh.boundary, job, coarse.surface);
   try {
     find_topology(coarse.surface.points, coarse.surface.triangles, job, coarse.topology);
-    if (!same_topology(coarse.topology, topology)) return "the boundary has another topology";
+    coarse.wants_care = !same_topology(coarse.topology, topology);
+    if (coarse.wants_care) return "the boundary has another topology";
     refuse_crossing(coarse.surface, 0, job);
     refuse_nested_solids(coarse.surface, coarse.topology, 0, job);
     return {};
   } catch (const Error &error) {
-    coarse.meets_itself = error.status() == Status::mesh_intersecting;
-    if (coarse.meets_itself || error.status() == Status::mesh_nonmanifold) return error.what();
+    coarse.wants_care = error.status() == Status::mesh_intersecting || error.status() == Status::mesh_nonmanifold;
+    if (coarse.wants_care) return error.what();
     throw;
   }
 }
@@ -87,6 +88,10 @@ bool lower(const SolidOptions &options, std::int64_t most, const SurfaceTopology
   return true;
 }
 
+bool is_better(const CoarseSolid &a, const CoarseSolid &b) {
+  return a.is_sound && (!b.is_sound || a.mesh.tets.size() < b.mesh.tets.size());
+}
+
 std::string decimate_and_check(const MeshView &original, const Boundary &boundary, const Surface &surface,
                                const SurfaceTopology &topology, const SolidOptions &options, std::int64_t lowered,
                                SolidHistory &history, Job &job, CoarseSolid &coarse) {
@@ -105,21 +110,23 @@ std::string decimate_solid_and_check(const MeshView &original, const Boundary &b
                                      SolidHistory &history, Job &job, CoarseSolid &coarse) {
   const Array<std::uint8_t> touching = touching_vertices(original, surface, topology, job);
   options.touching = touching;
-  const auto decimate = [&] {
-    return decimate_and_check(original, boundary, surface, topology, options, lowered, history, job, coarse);
+  const auto decimate = [&](CoarseSolid &out) {
+    return decimate_and_check(original, boundary, surface, topology, options, lowered, history, job, out);
   };
-  std::string wrong = decimate();
+  std::string wrong = decimate(coarse);
   const std::int64_t reused = coarse.reused;  // of other runs
   const auto all = std::int64_t(original.tets.size()), few = late * std::int64_t(coarse.mesh.tets.size());
   const bool can_reach_size = !misses_size(options, coarse.mesh);
-  bool again = coarse.meets_itself;
+  bool again = coarse.wants_care;
   for (options.careful_from = std::min(few, all); again; options.careful_from = all) {
     if (job.log) job.log(1, ("edges collapse again, with more care: " + wrong).c_str());
-    coarse = CoarseSolid(job.memory);
-    wrong = decimate();
-    coarse.reused = reused;
-    again = !wrong.empty() && options.careful_from < all && (can_reach_size || !coarse.is_sound);
+    if (!coarse.is_sound) coarse = CoarseSolid(job.memory);
+    CoarseSolid careful(job.memory);
+    wrong = decimate(careful);
+    again = !wrong.empty() && options.careful_from < all && (can_reach_size || !careful.is_sound);
+    if (is_better(careful, coarse)) coarse = std::move(careful);
   }
+  coarse.reused = reused;
   return wrong;
 }
 

@@ -15,15 +15,16 @@ struct CoarseSolid {
   SurfaceTopology topology;    ///< of that
   std::int64_t reused = 0;     ///< collapses that decimate_solid's history saved
   bool is_sound = false;       ///< it has but the wrong size, if anything is wrong
-  bool meets_itself = false;   ///< that is wrong with it
+  bool wants_care = false;     ///< its boundary is wrong, which care may avoid
   double deviation = 0;        ///< between the boundaries, at samples_for() the limit
 };
 
 /// decimate_solid, with care where the boundary else comes to cross itself, which it seldom does: looking for that in
 /// every collapse takes longer. Then, but with lowered = 0, lower_deviation to so many tets at most, where that leaves
 /// the mesh sound. `surface` is the original's boundary, `topology` that of it; options.touching is found from them.
-/// Returns what is wrong with the outcome, or an empty text: a tet is not positive, tets overlap, the boundary crosses
-/// itself, or the size is missed by more than 1 %.
+/// Returns what is wrong with the last outcome, or an empty text: a tet is not positive, tets overlap, the boundary
+/// crosses itself or has another topology, solids are nested, or the size is missed by more than 1 %. `coarse` is the
+/// sound one of fewest tets, if any is sound.
 std::string decimate_solid_and_check(const MeshView &original, const Boundary &boundary, const Surface &surface,
                                      const SurfaceTopology &topology, SolidOptions options, std::int64_t lowered,
                                      SolidHistory &history, Job &job, CoarseSolid &coarse);

@@ -24,6 +24,7 @@ void note_missed_size(vtkTetlodSimplify &filter, std::vector<std::string> &notes
   std::ostringstream text;
   text << "a part of " << asked << " of the tets was asked for, and " << kept
        << " is left: no way to less was found that keeps the topology";
+  if (filter.GetOption("max-deviation") > 0) text << " and max-deviation";
   notes.push_back(text.str());
 }
 
