@@ -45,11 +45,9 @@ bool spokes_cross(const Star &star) {
   return false;
 }
 
-/// How much deeper in material a ray to p gets by passing a triangle of this box.
+/// What a ray to p gains by a triangle of this box.
 int depth_behind(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Box &box, const Vec3 &p) {
-  if (!overlap(box, ray_to(p, box))) return 0;
-  const RayEnd end = end_of_ray(a, b, c, p);
-  return int(end == RayEnd::entered) - int(end == RayEnd::left);
+  return overlap(box, ray_to(p, box)) ? depth_gained(end_of_ray(a, b, c, p)) : 0;
 }
 
 }  // namespace

@@ -11,6 +11,9 @@ enum class RayEnd { beside, before, at, entered, left };
 /// Of the ray to p and the triangle a, b, c, whose outer side is where it is counter-clockwise.
 RayEnd end_of_ray(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &p);
 
+/// How much deeper in material the ray is behind the triangle.
+inline int depth_gained(RayEnd end) { return int(end == RayEnd::entered) - int(end == RayEnd::left); }
+
 /// The ray from the side of the box to p.
 inline Box ray_to(const Vec3 &p, const Box &from) {
   Box ray;

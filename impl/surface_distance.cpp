@@ -58,7 +58,7 @@ std::optional<int> TriangleTree::depth(const Vec3 &p, std::int32_t but) const {
     const Triangle &corner = triangles_[std::size_t(t)];
     const RayEnd end = end_of_ray(points_[std::size_t(corner[0])], points_[std::size_t(corner[1])],
                                   points_[std::size_t(corner[2])], p);
-    depth += int(end == RayEnd::entered) - int(end == RayEnd::left);
+    depth += depth_gained(end);
     return end == RayEnd::at;
   });
   return meets ? std::nullopt : std::optional(depth);
