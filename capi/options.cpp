@@ -46,6 +46,7 @@ constexpr Option option_table[] = {
     {TETLOD_OPT_MAX_ERROR, "max-error", &Options::max_error, nullptr, 0, 1, true},
     {TETLOD_OPT_MAX_DEVIATION, "max-deviation", &Options::max_deviation, nullptr, 0, 1, true},
     {TETLOD_OPT_WARM_START, "warm-start", &Options::warm_start, nullptr, 0, 1, false},
+    {TETLOD_OPT_REMESH, "remesh", nullptr, &Options::remesh, 0, 1, false},
 };
 
 const Option *find(std::int32_t number) noexcept {

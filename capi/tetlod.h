@@ -88,8 +88,8 @@ enum {
   TETLOD_ERR_MESH_PARTITION = 36,    /* reserved for partitioned meshes */
   TETLOD_ERR_MESH_TOO_LARGE = 37,    /* 2^29 points or tets, or more; 2^31 / 3 boundary triangles */
   /* the remesher */
-  TETLOD_ERR_REMESH = 40,          /* TetGen failed on this boundary in every way that was tried */
-  TETLOD_ERR_BACKEND_MISSING = 41, /* tetlod-remesh not found, not executable, or of another version */
+  TETLOD_ERR_REMESH = 40,          /* no sound mesh of this boundary in every way that was tried, or may be */
+  TETLOD_ERR_BACKEND_MISSING = 41, /* tetlod-remesh not found, not executable, of another version, or ruled out */
   /* the bound */
   TETLOD_ERR_MAX_ERROR = 42 /* TETLOD_OPT_MAX_ERROR cannot be held */
 };
@@ -198,21 +198,20 @@ typedef struct tetlod_mesh_report {
   tetlod_status status; /* what tetlod_run would say of the mesh, with the options as they are but for sigma 1, before
                            remeshing: decimation may take away a place where the boundary crosses itself */
   int64_t points, tets;
-  int64_t boundary_triangles;      /* faces used once */
-  int64_t components;              /* of the boundary surface; 0 where it cannot be made out */
-  tetlod_defect index;             /* tets that name a vertex that the mesh does not have */
-  tetlod_defect repeated;          /* tets with a vertex twice, also after merging */
-  tetlod_defect nonfinite_points;  /* used points with a coordinate that is not finite */
-  tetlod_defect nonfinite_values;  /* used points with a value that is not finite */
-  tetlod_defect coincident;        /* points that coincide with an earlier one (TETLOD_OPT_MERGE_TOLERANCE) */
-  tetlod_defect flat;              /* tets without volume */
-  tetlod_defect inverted;          /* tets with a negative determinant */
-  tetlod_defect duplicate;         /* tets with the four vertices of an earlier one */
-  tetlod_defect nonmanifold_faces; /* faces with more than two tets; first: a tet */
-  tetlod_defect overlapping;       /* faces with both their tets on one side; first: a tet */
-  tetlod_defect unused;            /* points that no tet uses */
-  tetlod_defect
-      nonmanifold_edges; /* boundary edges with more than two faces: the solid touches itself; first: a point */
+  int64_t boundary_triangles;       /* faces used once */
+  int64_t components;               /* of the boundary surface; 0 where it cannot be made out */
+  tetlod_defect index;              /* tets that name a vertex that the mesh does not have */
+  tetlod_defect repeated;           /* tets with a vertex twice, also after merging */
+  tetlod_defect nonfinite_points;   /* used points with a coordinate that is not finite */
+  tetlod_defect nonfinite_values;   /* used points with a value that is not finite */
+  tetlod_defect coincident;         /* points that coincide with an earlier one (TETLOD_OPT_MERGE_TOLERANCE) */
+  tetlod_defect flat;               /* tets without volume */
+  tetlod_defect inverted;           /* tets with a negative determinant */
+  tetlod_defect duplicate;          /* tets with the four vertices of an earlier one */
+  tetlod_defect nonmanifold_faces;  /* faces with more than two tets; first: a tet */
+  tetlod_defect overlapping;        /* faces with both their tets on one side; first: a tet */
+  tetlod_defect unused;             /* points that no tet uses */
+  tetlod_defect nonmanifold_edges;  /* of the boundary, with more than two faces; first: a point */
   tetlod_defect nonmanifold_points; /* boundary points where the solid touches itself */
 } tetlod_mesh_report;
 
@@ -331,8 +330,10 @@ enum {
   TETLOD_OPT_MAX_DEVIATION = 23, /* real, "max-deviation": bound of the distance between the boundaries of original and
                                    result, at vertices and middles of edges and triangles of both, as a fraction of the
                                    diagonal; more of the boundary is kept than asked for. 0, the default: none */
-  TETLOD_OPT_WARM_START = 24 /* real, "warm-start": edges collapse from what an earlier run with other values left, if
-                                by estimate the RMS error grows by no more than this part; 0, the default: not */
+  TETLOD_OPT_WARM_START = 24, /* real, "warm-start": edges collapse from what an earlier run with other values left, if
+                                 by estimate the RMS error grows by no more than this part; 0, the default: not */
+  TETLOD_OPT_REMESH = 25 /* int, "remesh": 0: no process is started; the size or bound (neither: _BACKEND_MISSING) is
+                            met by collapses alone, or missed by more tets; 1, the default */
 };
 enum { TETLOD_EFFORT_FAST = 1, TETLOD_EFFORT_ACCURATE = 2 };
 enum { TETLOD_POLICY_ERROR = 0, TETLOD_POLICY_REPAIR = 1 };
@@ -414,8 +415,7 @@ TETLOD_API tetlod_status tetlod_estimate_memory(tetlod_context *context, uint64_
  * TETLOD_ERR_ARGUMENT       as many scalars as points are needed, and values of what steers beside them; of other
  *                           fields as many tuples as points or tets
  * TETLOD_ERR_MESH_*         see the enumeration
- * TETLOD_ERR_MEMORY_LIMIT, TETLOD_ERR_CANCELLED, TETLOD_ERR_TIME_LIMIT, TETLOD_ERR_REMESH,
- * TETLOD_ERR_BACKEND_MISSING, TETLOD_ERR_MAX_ERROR
+ * TETLOD_ERR_MEMORY_LIMIT, _CANCELLED, _TIME_LIMIT, _REMESH, _BACKEND_MISSING, _MAX_ERROR
  *
  * A run takes over from earlier ones of its context, with its own bytes but where TETLOD_OPT_WARM_START allows others,
  *   the checks of the mesh, its boundary and how that hangs together, while points, tets, point flags, merge tolerance

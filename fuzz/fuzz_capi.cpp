@@ -150,20 +150,20 @@ void set_by_name(Session &session, Bytes &in) {
 }
 
 void set_preset(Session &session, Bytes &in) {
-  const tetlod_status status = tetlod_set_preset(session.context(), std::int32_t(in.byte() % 4) - 1);
-  check_documented("tetlod_set_preset", status, {TETLOD_ERR_OPTION});
+  const std::int32_t preset = std::int32_t(in.byte() % 4) - 1;
+  check_documented("tetlod_set_preset", tetlod_set_preset(session.context(), preset), {TETLOD_ERR_OPTION});
 }
 
 /// A size, a bound, both, or neither again.
 void set_target(Session &session, Bytes &in) {
-  const auto set = [&](std::int32_t option, double real, std::int64_t whole) { session.set({option, real, whole}); };
   const std::size_t kind = in.below(5);
-  if (kind == 2) set(TETLOD_OPT_MAX_DEVIATION, in.fraction() * std::pow(10.0, -double(in.below(4))), 0);
-  const bool samples = in.one_in(3);  // small meshes are remeshed only where edges are to be cleaned
-  set(TETLOD_OPT_EFFORT, 0, samples ? TETLOD_EFFORT_FAST : TETLOD_EFFORT_ACCURATE);
-  set(TETLOD_OPT_CLEAN_EDGES, samples ? 1e-15 : 0, 0);
-  set(TETLOD_OPT_TARGET_RATIO, kind == 0 ? 0 : in.fraction(), 0);
-  set(TETLOD_OPT_MAX_ERROR, kind == 3 || kind == 4 ? in.fraction() * std::pow(10.0, -double(in.below(5))) : 0, 0);
+  if (kind == 2) session.set({TETLOD_OPT_MAX_DEVIATION, in.fraction() * std::pow(10.0, -double(in.below(4))), 0});
+  const std::size_t way = in.below(24);  // small meshes are remeshed only where edges are to be cleaned
+  session.set({TETLOD_OPT_EFFORT, 0, way % 3 == 2 ? TETLOD_EFFORT_FAST : TETLOD_EFFORT_ACCURATE});
+  session.set({TETLOD_OPT_CLEAN_EDGES, way % 3 == 2 ? 1e-15 : 0, 0});
+  session.set({TETLOD_OPT_REMESH, 0, way < 21});
+  session.set({TETLOD_OPT_TARGET_RATIO, kind == 0 ? 0 : in.fraction(), 0});
+  session.set({TETLOD_OPT_MAX_ERROR, kind > 2 ? in.fraction() * std::pow(10.0, -double(in.below(5))) : 0, 0});
 }
 
 // ---- Input ---------------------------------------------------------------------------------------------------------

@@ -35,6 +35,7 @@ inline bool samples_sooner(const Options &options, const Report &report) {
 }
 
 inline bool collapses_edges(const Options &options, const Report &report) {
+  if (!options.remesh) return true;
   return options.clean_edges == 0 && (options.effort == effort_accurate || !samples_sooner(options, report));
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "deviation.hpp"
-#include "find_crossing.hpp"
 #include "lower_deviation.hpp"
 #include "nested_solids.hpp"
 #include "status.hpp"
@@ -40,8 +39,7 @@ std::string check_surface_of(const SurfaceTopology &topology, std::size_t fields
     find_topology(coarse.surface.points, coarse.surface.triangles, job, coarse.topology);
     coarse.wants_care = !same_topology(coarse.topology, topology);
     if (coarse.wants_care) return "the boundary has another topology";
-    refuse_crossing(coarse.surface, 0, job);
-    refuse_nested_solids(coarse.surface, coarse.topology, 0, job);
+    refuse_intersections(coarse.surface, coarse.topology, 0, job);
     return {};
   } catch (const Error &error) {
     coarse.wants_care = error.status() == Status::mesh_intersecting || error.status() == Status::mesh_nonmanifold;

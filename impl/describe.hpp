@@ -20,6 +20,14 @@ inline void describe_input(const Input &input, const Original &original, Report 
   report.scalar_max = original.scalar_max;
 }
 
+/// After describe_input().
+inline void describe_extraction(const Boundary &boundary, Report &report) {
+  report.dropped_tets += boundary.flat_tets + boundary.duplicate_tets;
+  report.unused_points = boundary.unused_points - report.merged_points - report.nonfinite_points;
+  report.interior_points_in = std::int64_t(boundary.interior.size());
+  report.boundary_triangles_in = std::int64_t(boundary.triangles.size());
+}
+
 inline void describe_boundary(const SurfaceTopology &original, Report &report) {
   report.boundary_points_in = original.used_points;
   report.boundary_edges_in = original.edges;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "find_crossing.hpp"
 #include "geometry.hpp"
 #include "host_numbers.hpp"
 #include "status.hpp"
@@ -81,6 +82,11 @@ void refuse_nested_solids(const Surface &surface, const SurfaceTopology &topolog
   fail(Status::mesh_intersecting,
        "solids overlap: the boundary face of vertices %lld, %lld, %lld lies in another solid", numbers.vertex(face[0]),
        numbers.vertex(face[1]), numbers.vertex(face[2]));
+}
+
+void refuse_intersections(const Surface &surface, const SurfaceTopology &topology, std::int32_t index_base, Job &job) {
+  refuse_crossing(surface, index_base, job);
+  refuse_nested_solids(surface, topology, index_base, job);
 }
 
 }  // namespace tetlod

@@ -10,4 +10,7 @@ namespace tetlod {
 /// the message is numbered from `index_base`.
 void refuse_nested_solids(const Surface &surface, const SurfaceTopology &topology, std::int32_t index_base, Job &job);
 
+/// Likewise, and where the surface crosses itself.
+void refuse_intersections(const Surface &surface, const SurfaceTopology &topology, std::int32_t index_base, Job &job);
+
 }  // namespace tetlod

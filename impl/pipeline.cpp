@@ -55,6 +55,7 @@ class Pipeline {
   void run(Worker &worker) {
     begin();
     if (as_published(options_)) {
+      if (!options_.remesh) fail(Status::backend_missing, "no target ratio, no bound, and remesh is 0");
       decimate(budget_.sigma);
       simplify(worker);
       reconstruct_field();
@@ -110,11 +111,15 @@ class Pipeline {
     mesh_.tets.clear();
     report_.reused_collapses = 0;
     if (collapses_edges(options_, report_)) {
-      if (!collapse_edges(coarse)) remesh_to_target(worker);
+      if (!collapse_edges(coarse) && options_.remesh) remesh_to_target(worker);
     } else if (!remesh_to_target(worker) && options_.clean_edges == 0) {
       collapse_edges(coarse);
     }
-    if (!coarse.is_sound && mesh_.tets.empty()) throw Error(Status::remesh, failure_);
+    if (!coarse.is_sound && mesh_.tets.empty()) {
+      if (!options_.remesh)  // or that was looked at before
+        refuse_intersections(prepared_.surface(job_), prepared_.topology(job_), input_.index_base, job_);
+      throw Error(Status::remesh, failure_);
+    }
     const bool collapsed = coarse.is_sound && (mesh_.tets.empty() || coarse.mesh.tets.size() < mesh_.tets.size());
     if (collapsed) take_over(std::move(coarse));
     return collapsed;
@@ -149,8 +154,10 @@ class Pipeline {
     const std::string wrong =
         decimate_solid_and_check(original_.view, boundary_, prepared_.surface(job_), prepared_.topology(job_), options,
                                  sizes.lowered, history, job_, coarse);
-    if (!wrong.empty() && job_.log) job_.log(1, ("edges collapsed in vain: " + wrong).c_str());
-    return wrong.empty();
+    if (wrong.empty()) return true;
+    failure_ = "edges collapsed in vain: " + wrong;
+    if (job_.log) job_.log(1, failure_.c_str());
+    return false;
   }
 
   void take_over(CoarseSolid &&coarse) {
@@ -252,10 +259,7 @@ class Pipeline {
     }
     prepared_.complete();
     describe_input(input_, original_, report_);
-    report_.dropped_tets += boundary_.flat_tets + boundary_.duplicate_tets;
-    report_.unused_points = boundary_.unused_points - report_.merged_points - report_.nonfinite_points;
-    report_.interior_points_in = std::int64_t(boundary_.interior.size());
-    report_.boundary_triangles_in = std::int64_t(boundary_.triangles.size());
+    describe_extraction(boundary_, report_);
   }
 
   void plan() {
@@ -358,7 +362,7 @@ class Pipeline {
   TetMesh &mesh_;
   Report &report_;
   Budget budget_;
-  std::string failure_;  // of the last remeshing
+  std::string failure_;  // of what was tried last
   Original &original_{prepared_.original};
   Boundary &boundary_{prepared_.boundary};
   Surface surface_{job_.memory};                // the simplified boundary
@@ -372,11 +376,6 @@ class Pipeline {
 };
 
 }  // namespace
-
-void run(const Input &input, const Options &options, Worker &worker, Job &job, Result &result) {
-  Prepared prepared(job.memory);
-  run(input, options, worker, prepared, job, result);
-}
 
 void run(const Input &input, const Options &options, Worker &worker, Prepared &prepared, Job &job, Result &result) {
   const auto begin = std::chrono::steady_clock::now();

@@ -28,6 +28,7 @@ struct Options {
   double target_ratio = 0;   ///< tets kept, of the original's; 0: the paper's method, sized by rho and sigma
   bool usual_ratio = false;  ///< that is a preset's: of no meaning beside a bound of the error
   std::int64_t effort = effort_accurate;  ///< of a run with a target
+  std::int64_t remesh = 1;                ///< 0: tetlod-remesh is never started, edges collapse whatever the size
   double max_error = 0;                   ///< bound of the error at the original vertices, over the range; 0: none
   double max_deviation = 0;               ///< of the boundary, over the diagonal; 0: no limit
   double warm_start = 0;                  ///< how much larger the error may get where collapses take over earlier ones
@@ -132,10 +133,8 @@ struct Result {
   Fingerprint original;  ///< of its points and tets
 };
 
-/// Simplifies; throws Error. `result` is meant to be a fresh one: after a throw its contents mean nothing.
-void run(const Input &input, const Options &options, Worker &worker, Job &job, Result &result);
-
-/// The same, with what `prepared` has of earlier runs; leaves there what later ones may use, also after a throw.
+/// Simplifies; throws Error. `result` is meant to be a fresh one: after a throw its contents mean nothing. Takes what
+/// `prepared` has of earlier runs, and leaves there what later ones may use, also after a throw.
 void run(const Input &input, const Options &options, Worker &worker, Prepared &prepared, Job &job, Result &result);
 
 /// What Report::peak_bytes of such a run would be, within a factor of 1.5 for sound meshes. Does the run's first

@@ -7,6 +7,8 @@ namespace {
 
 void note_unused_options(vtkTetlodSimplify &filter, const Arguments &arguments, std::vector<std::string> &notes) {
   if (filter.GetOption("target-ratio") <= 0 && filter.GetOption("max-error") <= 0) return;
+  if (filter.GetOption("remesh") == 0 && filter.GetOption("clean-edges") > 0)
+    notes.push_back("--clean-edges has no meaning with --remesh 0");
   for (const char *name : {"rho", "sigma", "lambda", "min-distance"})
     if (arguments.numbers.count(tetlod_option_from_name(name)) > 0)
       notes.push_back(std::string("--") + name + " has no meaning with a target ratio or a bound");
@@ -25,6 +27,7 @@ void note_missed_size(vtkTetlodSimplify &filter, std::vector<std::string> &notes
   text << "a part of " << asked << " of the tets was asked for, and " << kept
        << " is left: no way to less was found that keeps the topology";
   if (filter.GetOption("max-deviation") > 0) text << " and max-deviation";
+  if (filter.GetOption("remesh") == 0) text << "; --remesh 1 may lead to less";
   notes.push_back(text.str());
 }
 

@@ -68,6 +68,7 @@ module tetlod_types
   integer(c_int32_t), parameter, public :: TETLOD_OPT_MAX_ERROR = 22_c_int32_t
   integer(c_int32_t), parameter, public :: TETLOD_OPT_MAX_DEVIATION = 23_c_int32_t
   integer(c_int32_t), parameter, public :: TETLOD_OPT_WARM_START = 24_c_int32_t
+  integer(c_int32_t), parameter, public :: TETLOD_OPT_REMESH = 25_c_int32_t
   integer(c_int32_t), parameter, public :: TETLOD_EFFORT_FAST = 1_c_int32_t
   integer(c_int32_t), parameter, public :: TETLOD_EFFORT_ACCURATE = 2_c_int32_t
   integer(c_int32_t), parameter, public :: TETLOD_POLICY_ERROR = 0_c_int32_t

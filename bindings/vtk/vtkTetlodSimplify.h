@@ -113,6 +113,12 @@ class VTKTETLOD_EXPORT vtkTetlodSimplify : public vtkUnstructuredGridAlgorithm {
   void SetEffortToAccurate() { this->SetEffort(2); }
   ///@}
   ///@{
+  /** False: edges collapse whatever the size, and tetlod-remesh is never started. Default true. */
+  void SetRemesh(bool remesh);
+  bool GetRemesh();
+  vtkBooleanMacro(Remesh, bool);
+  ///@}
+  ///@{
   /** Bound of the error at the original vertices, as a fraction of the field's range; 0, the default: none. */
   void SetMaxError(double bound);
   double GetMaxError();

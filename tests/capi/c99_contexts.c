@@ -285,7 +285,7 @@ static void check_every_option(void) {
     else
       check_real(context, option, &bounds);
   }
-  CHECK(found == TETLOD_OPT_WARM_START); /* the last one */
+  CHECK(found == TETLOD_OPT_REMESH); /* the last one */
   tetlod_destroy(context);
 }
 

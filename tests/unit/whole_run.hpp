@@ -15,12 +15,19 @@
 #include "measure_error.hpp"
 #include "meshes.hpp"
 #include "pipeline.hpp"
+#include "prepared.hpp"
 #include "status.hpp"
 
 namespace tetlod::test {
 
 inline double linear(const Vec3 &p) { return 5 + 2 * p.x - 3 * p.y + p.z; }
 inline double waves(const Vec3 &p) { return std::sin(6 * p.x) * std::cos(5 * p.y) + p.z; }
+
+/// In a context of its own.
+inline void run(const Input &input, const Options &options, Worker &worker, Job &job, Result &result) {
+  Prepared prepared(job.memory);
+  run(input, options, worker, prepared, job, result);
+}
 
 class WholeRun : public testing::Test {
  protected:
