@@ -196,6 +196,33 @@ TEST_F(DecimateSolid, RefusesTetsThatOverlap) {
   EXPECT_NE(failure.find("the volume is "), std::string::npos) << failure;
 }
 
+/// A state begins careful collapses only where nothing was collapsed carelessly that they would look at.
+TEST_F(DecimateSolid, CareBeginsAtNoStateThatIsTooCoarse) {
+  Mesh plates;
+  for (int k = 0; k < 3; k++) {
+    Mesh plate = kuhn_cube(14);
+    transform(plate, [k](const Vec3 &p) {
+      return Vec3(p.x, p.y, 0.1 * k + 0.06 * std::sin(9 * p.x) * std::sin(7 * p.y) + 0.099 * p.z);
+    });
+    append(plates, plate);
+  }
+  set_scalars(plates, waves);
+  start_with(plates);
+  const auto collapse = [&](double ratio, SolidHistory &history, TetMesh &mesh) {
+    options.tets = std::int64_t(ratio * double(original.tets.size()));
+    Array<std::int32_t> origin(&host.memory);
+    return decimate_solid(original.view(), boundary, surface, options, history, host.job, mesh, origin);
+  };
+  SolidHistory with(host.memory), without(host.memory);
+  TetMesh careless(host.memory), careful(host.memory), alone(host.memory);
+  collapse(0.02, with, careless);
+  ASSERT_GE(with.states<1>(host.memory).size(), 3U);
+  options.careful_from = std::int64_t(original.tets.size() / 2);
+  EXPECT_GT(collapse(0.04, with, careful), 0);
+  EXPECT_EQ(collapse(0.04, without, alone), 0);
+  expect_same(careful, alone);
+}
+
 TEST_F(DecimateSolid, KeepsRestoredVerticesAndForgetsTheOthersStates) {
   Mesh mesh = kuhn_cube(14);
   set_scalars(mesh, waves);
