@@ -378,15 +378,14 @@ class SolidDecimator {
 
 }  // namespace
 
-std::int64_t decimate_solid(const MeshView &original, const Boundary &boundary, const Surface &surface,
-                            const SolidOptions &options, SolidHistory &history, Job &job, TetMesh &mesh,
-                            Array<std::int32_t> &origin) {
-  return with_fields(original.fields, [&](auto m) {
-    const FieldsAsLengths<m> fields(original, box_of(surface.points).diagonal(), job);
-    CollapseStart<m> start = begin_collapses<m>(original, boundary, fields, options, history, job);
+std::int64_t decimate_solid(const OriginalSolid &original, const SolidOptions &options, SolidHistory &history, Job &job,
+                            TetMesh &mesh, Array<std::int32_t> &origin) {
+  return with_fields(original.mesh.fields, [&](auto m) {
+    const FieldsAsLengths<m> fields(original.mesh, box_of(original.surface.points).diagonal(), job);
+    CollapseStart<m> start = begin_collapses<m>(original.mesh, original.boundary, fields, options, history, job);
     const std::size_t saved = start.solid.measures.vertices - start.solid.points.size();
     const bool may_warm = start.progress.follows();
-    SolidDecimator<m> decimator(original, surface, options, fields, std::move(start),
+    SolidDecimator<m> decimator(original.mesh, original.surface, options, fields, std::move(start),
                                 start.keeps_states ? &history.states<m>(job.memory) : nullptr, job);
     decimator.run();
     decimator.write(mesh, origin);

@@ -16,13 +16,13 @@ constexpr double most_missed = 0.01;
 /// Times the tets that are left: before, hardly any collapse takes the boundary through itself, as triangles are small.
 constexpr std::int64_t late = 8;
 
-Array<std::uint8_t> touching_vertices(const MeshView &original, const Surface &surface, const SurfaceTopology &topology,
-                                      Job &job) {
-  Array<std::uint8_t> touching(&job.memory);
+Array<std::uint8_t> touching_vertices(const OriginalSolid &original, Memory &memory) {
+  const SurfaceTopology &topology = original.topology;
+  Array<std::uint8_t> touching(&memory);
   if (topology.nonmanifold_points == 0 && topology.nonmanifold_edges == 0) return touching;
-  touching.resize(original.points.size(), 0);
-  for (std::size_t p = 0; p < surface.points.size(); p++)
-    if (topology.touching[p]) touching[std::size_t(surface.origin[p])] = 1;
+  touching.resize(original.mesh.points.size(), 0);
+  for (std::size_t p = 0; p < topology.touching.size(); p++)
+    if (topology.touching[p]) touching[std::size_t(original.surface.origin[p])] = 1;
   return touching;
 }
 
@@ -32,12 +32,12 @@ bool same_topology(const SurfaceTopology &a, const SurfaceTopology &b) {
 }
 
 /// Closed, of the same topology, it crosses itself nowhere, and none of its components lies in another's material.
-std::string check_surface_of(const SurfaceTopology &topology, std::size_t fields, Job &job, CoarseSolid &coarse) {
+std::string check_surface_of(const OriginalSolid &original, Job &job, CoarseSolid &coarse) {
   const TetMesh &mesh = coarse.mesh;
-  make_surface({mesh.points, mesh.scalars, mesh.tets, fields}, mesh.boundary, job, coarse.surface);
+  make_surface({mesh.points, mesh.scalars, mesh.tets, original.mesh.fields}, mesh.boundary, job, coarse.surface);
   try {
     find_topology(coarse.surface.points, coarse.surface.triangles, job, coarse.topology);
-    coarse.wants_care = !same_topology(coarse.topology, topology);
+    coarse.wants_care = !same_topology(coarse.topology, original.topology);
     if (coarse.wants_care) return "the boundary has another topology";
     refuse_intersections(coarse.surface, coarse.topology, 0, job);
     return {};
@@ -52,12 +52,11 @@ bool misses_size(const SolidOptions &options, const TetMesh &mesh) {
   return options.enough == 0 && double(mesh.tets.size()) > (1 + most_missed) * double(options.tets);
 }
 
-std::string check(const SolidOptions &options, const SurfaceTopology &topology, std::size_t fields, Job &job,
-                  CoarseSolid &coarse) {
+std::string check(const OriginalSolid &original, const SolidOptions &options, Job &job, CoarseSolid &coarse) {
   TetMesh &mesh = coarse.mesh;
   std::string wrong = make_all_positive(mesh.points, {mesh.tets.data(), mesh.tets.size()}, 1, job);
   if (wrong.empty()) wrong = check_volume(mesh.points, mesh.tets, mesh.boundary, 1, job);
-  if (wrong.empty()) wrong = check_surface_of(topology, fields, job, coarse);
+  if (wrong.empty()) wrong = check_surface_of(original, job, coarse);
   coarse.is_sound = wrong.empty();
   if (coarse.is_sound && misses_size(options, mesh))
     return text("no edge is left to collapse at %zu tets", mesh.tets.size());
@@ -73,14 +72,14 @@ Array<std::uint8_t> vertices_that_stay(const SolidOptions &options, Memory &memo
 }
 
 /// Takes the boundary back to where it is farthest off, where the outcome is sound.
-bool lower(const SolidOptions &options, std::int64_t most, const SurfaceTopology &topology, const Surface &surface,
-           Job &job, CoarseSolid &coarse) {
+bool lower(const OriginalSolid &original, const SolidOptions &options, std::int64_t most, Job &job,
+           CoarseSolid &coarse) {
   CoarseSolid lowered(job.memory);
   lowered.mesh = coarse.mesh;
   lowered.origin = coarse.origin;
   const Array<std::uint8_t> stay = vertices_that_stay(options, job.memory);
-  lowered.deviation = lower_deviation(surface, stay, most, job, lowered.mesh, lowered.origin);
-  if (!check(options, topology, surface.fields, job, lowered).empty()) return false;
+  lowered.deviation = lower_deviation(original.surface, stay, most, job, lowered.mesh, lowered.origin);
+  if (!check(original, options, job, lowered).empty()) return false;
   lowered.reused = coarse.reused;
   coarse = std::move(lowered);
   return true;
@@ -90,30 +89,28 @@ bool is_better(const CoarseSolid &a, const CoarseSolid &b) {
   return a.is_sound && (!b.is_sound || a.mesh.tets.size() < b.mesh.tets.size());
 }
 
-std::string decimate_and_check(const MeshView &original, const Boundary &boundary, const Surface &surface,
-                               const SurfaceTopology &topology, const SolidOptions &options, std::int64_t lowered,
+std::string decimate_and_check(const OriginalSolid &original, const SolidOptions &options, std::int64_t lowered,
                                SolidHistory &history, Job &job, CoarseSolid &coarse) {
-  coarse.reused = decimate_solid(original, boundary, surface, options, history, job, coarse.mesh, coarse.origin);
-  if (lowered > 0 && lower(options, lowered, topology, surface, job, coarse)) return {};
-  const std::string wrong = check(options, topology, original.fields, job, coarse);
+  coarse.reused = decimate_solid(original, options, history, job, coarse.mesh, coarse.origin);
+  if (lowered > 0 && lower(original, options, lowered, job, coarse)) return {};
+  const std::string wrong = check(original, options, job, coarse);
   if (coarse.is_sound)
-    coarse.deviation = largest_deviation(surface, coarse.surface, samples_for(options.max_deviation), job);
+    coarse.deviation = largest_deviation(original.surface, coarse.surface, samples_for(options.max_deviation), job);
   return wrong;
 }
 
 }  // namespace
 
-std::string decimate_solid_and_check(const MeshView &original, const Boundary &boundary, const Surface &surface,
-                                     const SurfaceTopology &topology, SolidOptions options, std::int64_t lowered,
+std::string decimate_solid_and_check(const OriginalSolid &original, SolidOptions options, std::int64_t lowered,
                                      SolidHistory &history, Job &job, CoarseSolid &coarse) {
-  const Array<std::uint8_t> touching = touching_vertices(original, surface, topology, job);
+  const Array<std::uint8_t> touching = touching_vertices(original, job.memory);
   options.touching = touching;
   const auto decimate = [&](CoarseSolid &out) {
-    return decimate_and_check(original, boundary, surface, topology, options, lowered, history, job, out);
+    return decimate_and_check(original, options, lowered, history, job, out);
   };
   std::string wrong = decimate(coarse);
   const std::int64_t reused = coarse.reused;  // of other runs
-  const auto all = std::int64_t(original.tets.size()), few = late * std::int64_t(coarse.mesh.tets.size());
+  const auto all = std::int64_t(original.mesh.tets.size()), few = late * std::int64_t(coarse.mesh.tets.size());
   const bool can_reach_size = !misses_size(options, coarse.mesh);
   bool again = coarse.wants_care;
   for (options.careful_from = std::min(few, all); again; options.careful_from = all) {

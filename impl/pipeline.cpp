@@ -151,9 +151,8 @@ class Pipeline {
                          holds_bound, options_.warm_start, kept_.by_host(), kept_.restored(),  {}};
     options.later = job_.memory.in_use() + bytes_to_refine(original_.view, sizes.tets, rounds_of(options_, report_));
     options.one_of_many = report_.reused_tets > 0 && history.is_repeated();
-    const std::string wrong =
-        decimate_solid_and_check(original_.view, boundary_, prepared_.surface(job_), prepared_.topology(job_), options,
-                                 sizes.lowered, history, job_, coarse);
+    const OriginalSolid original{original_.view, boundary_, prepared_.surface(job_), prepared_.topology(job_)};
+    const std::string wrong = decimate_solid_and_check(original, options, sizes.lowered, history, job_, coarse);
     if (wrong.empty()) return true;
     failure_ = "edges collapsed in vain: " + wrong;
     if (job_.log) job_.log(1, failure_.c_str());

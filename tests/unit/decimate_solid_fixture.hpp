@@ -39,8 +39,8 @@ class DecimateSolid : public testing::Test {
 
   bool decimate(double ratio, Host &on, SolidHistory &history, CoarseSolid &coarse) {
     options.tets = std::int64_t(ratio * double(original.tets.size()));
-    failure = decimate_solid_and_check(original.view(), boundary, surface, topology, options, lowered, history, on.job,
-                                       coarse);
+    const MeshView view = original.view();
+    failure = decimate_solid_and_check({view, boundary, surface, topology}, options, lowered, history, on.job, coarse);
     return failure.empty();
   }
 

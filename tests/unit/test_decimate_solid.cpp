@@ -211,7 +211,8 @@ TEST_F(DecimateSolid, CareBeginsAtNoStateThatIsTooCoarse) {
   const auto collapse = [&](double ratio, SolidHistory &history, TetMesh &mesh) {
     options.tets = std::int64_t(ratio * double(original.tets.size()));
     Array<std::int32_t> origin(&host.memory);
-    return decimate_solid(original.view(), boundary, surface, options, history, host.job, mesh, origin);
+    const MeshView view = original.view();
+    return decimate_solid({view, boundary, surface, topology}, options, history, host.job, mesh, origin);
   };
   SolidHistory with(host.memory), without(host.memory);
   TetMesh careless(host.memory), careful(host.memory), alone(host.memory);
