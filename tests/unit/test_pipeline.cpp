@@ -1,4 +1,9 @@
 // The whole run on generated meshes, with the real worker: fields that come back exact, and a report that adds up.
+#include <unistd.h>
+
+#include <cstdlib>
+
+#include "remesh_attempts.hpp"
 #include "whole_run.hpp"
 
 namespace tetlod {
@@ -129,6 +134,36 @@ TEST_F(WholeRun, ThreadsAndRepetitionGiveTheSameBytes) {
   Result other(host.memory);
   run(input_of(original), Options(), worker, host.job, other);
   EXPECT_NE(other.report.hash, report().hash);
+}
+
+/// The worker fails on the first boundaries, whatever is tried with them; and on all.
+TEST_F(WholeRun, ABoundaryThatCannotBeFilledIsDecimatedLess) {
+  Mesh original = kuhn_cube(8);
+  set_scalars(original, waves);
+  const std::string file = testing::TempDir() + "tetlod_boundaries_" + std::to_string(::getpid());
+  ::setenv("FAKE_REMESH_FAILURES", file.c_str(), 1);
+  double sigma = 0.2;
+  for (int boundaries = 0; boundaries < 4; boundaries++, sigma = less_decimated(sigma)) {
+    options.sigma = sigma;
+    simplify(original);
+    EXPECT_EQ(report().boundary_retries, 0);
+    options.sigma = 0.2;
+    ::setenv("FAKE_REMESH", std::to_string(std::size_t(boundaries) * remesh_attempts().size()).c_str(), 1);
+    Worker failing(TETLOD_FAKE_REMESH);
+    Result again(host.memory);
+    run(input_of(original), options, failing, host.job, again);
+    ::unlink(file.c_str());
+    EXPECT_EQ(again.report.boundary_retries, boundaries);
+    EXPECT_EQ(again.report.hash, report().hash);
+  }
+  ::setenv("FAKE_REMESH", "1000", 1);
+  Worker failing(TETLOD_FAKE_REMESH);
+  Result again(host.memory);
+  EXPECT_THROW(run(input_of(original), options, failing, host.job, again), Error);
+  EXPECT_EQ(again.report.boundary_retries, 3);
+  ::unlink(file.c_str());
+  ::unsetenv("FAKE_REMESH_FAILURES");
+  ::unsetenv("FAKE_REMESH");
 }
 
 TEST_F(WholeRun, AtAnyScaleAndPlace) {
