@@ -44,6 +44,11 @@ char *map_huge(std::size_t bytes) {
   return begin + before;
 }
 
+/// What is mapped at `to` goes.
+bool move_huge_page(char *from, char *to) {
+  return ::mremap(from, huge_page, huge_page, MREMAP_MAYMOVE | MREMAP_FIXED, to) != MAP_FAILED;
+}
+
 }  // namespace
 
 PageHeap::~PageHeap() { give_unused_back(); }
@@ -63,12 +68,14 @@ void PageHeap::give(void *block, std::size_t bytes) noexcept {
 
 void PageHeap::give_unused_back() noexcept {
   const std::lock_guard lock(mutex_);
+  drop_pieces();
+}
+
+void PageHeap::drop_pieces() noexcept {
   while (Piece *const piece = first_) {
     first_ = piece->next;
-    mapped_ -= piece->bytes;
     unmap(piece->begin(), piece->bytes);
   }
-  most_mapped_ = mapped_;
 }
 
 /// From the first one that is large enough: low addresses have been used before.
@@ -102,24 +109,30 @@ void PageHeap::add_piece(char *begin, std::size_t bytes) noexcept {
 
 bool PageHeap::grow(std::size_t bytes) noexcept {
   std::size_t size = round_up(bytes, huge_page);
-  make_room(size);
   char *begin = map_huge(size);
+  if (begin && !move_pieces(begin, size)) {
+    unmap(begin, size);
+    begin = nullptr;
+  }
+  if (!begin) {
+    drop_pieces();
+    begin = map_huge(size);
+  }
   if (!begin) begin = map(size = bytes);
   if (!begin) return false;
-  mapped_ += size;
-  most_mapped_ = std::max(most_mapped_, mapped_);
   add_piece(begin, size);
   return true;
 }
 
-/// The whole huge pages of pieces, which are all too small, go back, as far as there would be more than ever before.
-void PageHeap::make_room(std::size_t bytes) noexcept {
+/// The whole huge pages of pieces, which are all too small, come to lie from `to` on, so many bytes at most: the system
+/// need not clear others. False: it lets them not; then some may be lost.
+bool PageHeap::move_pieces(char *to, std::size_t bytes) noexcept {
   const auto keep = [](Piece **&link, char *begin, char *end) {
     if (begin == end) return;
     *link = new (begin) Piece{std::size_t(end - begin), *link};
     link = &(*link)->next;
   };
-  for (Piece **link = &first_; *link && mapped_ + bytes > most_mapped_;) {
+  for (Piece **link = &first_; *link && bytes > 0;) {
     char *const begin = (*link)->begin(), *const end = (*link)->end();
     char *const first = begin + bytes_to_huge_page(begin), *const last = end - bytes_in_huge_page(end);
     if (first >= last) {
@@ -127,11 +140,17 @@ void PageHeap::make_room(std::size_t bytes) noexcept {
       continue;
     }
     *link = (*link)->next;
-    unmap(first, std::size_t(last - first));
-    mapped_ -= std::size_t(last - first);
+    char *at = first;
+    while (at < last && bytes > 0 && move_huge_page(at, to)) {
+      at += huge_page;
+      to += huge_page;
+      bytes -= huge_page;
+    }
     keep(link, begin, first);
-    keep(link, last, end);
+    keep(link, at, end);
+    if (at < last && bytes > 0) return false;
   }
+  return true;
 }
 
 }  // namespace tetlod

@@ -33,11 +33,11 @@ class PageHeap {
   char *take_piece(std::size_t bytes) noexcept;
   void add_piece(char *begin, std::size_t bytes) noexcept;
   bool grow(std::size_t bytes) noexcept;
-  void make_room(std::size_t bytes) noexcept;
+  bool move_pieces(char *to, std::size_t bytes) noexcept;
+  void drop_pieces() noexcept;
 
   std::mutex mutex_;
   Piece *first_ = nullptr;
-  std::size_t mapped_ = 0, most_mapped_ = 0;  // the second since what was unused went back
 };
 
 }  // namespace tetlod

@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstring>
 #include <fstream>
 #include <random>
@@ -84,6 +85,25 @@ TEST(PageHeap, IsUsedAgain) {
   const Block all = take(heap, 900000, 5);
   EXPECT_EQ(all.data, a.data);
   heap.give(all.data, all.bytes);
+}
+
+/// Rather than that the system clears others, while these lie idle.
+TEST(PageHeap, PagesMoveTogetherWhereNoPieceIsLargeEnough) {
+  PageHeap heap;
+  constexpr std::size_t mb = std::size_t(1) << 20;
+  std::vector<Block> blocks;
+  for (unsigned char i = 0; i < 9; i++) blocks.push_back(take(heap, 6 * mb, i));
+  for (std::size_t i = 0; i < 9; i += 2) heap.give(blocks[i].data, blocks[i].bytes);
+  std::vector<unsigned char *> before;
+  for (std::size_t i = 0; i < 9; i += 2) before.push_back(blocks[i].data + 3 * mb);
+  const Block large = take(heap, 20 * mb, 77);
+  EXPECT_GE(std::count_if(before.begin(), before.end(), [](unsigned char *page) { return !is_mapped(page); }), 3);
+  EXPECT_TRUE(large.keeps_mark());
+  for (std::size_t i = 1; i < 9; i += 2) {
+    EXPECT_TRUE(blocks[i].keeps_mark());
+    heap.give(blocks[i].data, blocks[i].bytes);
+  }
+  heap.give(large.data, large.bytes);
 }
 
 TEST(PageHeap, GoesBackToTheSystem) {
