@@ -93,8 +93,8 @@ constexpr StatusText status_texts[] = {
     {TETLOD_ERR_MESH_INTERSECTING, "the mesh crosses or overlaps itself"},
     {TETLOD_ERR_MESH_PARTITION, "the partition of the mesh makes no sense"},
     {TETLOD_ERR_MESH_TOO_LARGE, "the mesh has 2^29 points or tets, or more"},
-    {TETLOD_ERR_REMESH, "TetGen failed on the simplified boundary"},
-    {TETLOD_ERR_BACKEND_MISSING, "tetlod-remesh cannot be run"},
+    {TETLOD_ERR_REMESH, "no sound mesh of the boundary was found"},
+    {TETLOD_ERR_BACKEND_MISSING, "tetlod-remesh cannot be run, or may not be"},
     {TETLOD_ERR_MAX_ERROR, "the bound of the error cannot be held"},
 };
 

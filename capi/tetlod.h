@@ -332,8 +332,8 @@ enum {
                                    diagonal; more of the boundary is kept than asked for. 0, the default: none */
   TETLOD_OPT_WARM_START = 24, /* real, "warm-start": edges collapse from what an earlier run with other values left, if
                                  by estimate the RMS error grows by no more than this part; 0, the default: not */
-  TETLOD_OPT_REMESH = 25 /* int, "remesh": 0: no process is started; the size or bound (neither: _BACKEND_MISSING) is
-                            met by collapses alone, or missed by more tets; 1, the default */
+  TETLOD_OPT_REMESH = 25      /* int, "remesh": 0: none is started; target-ratio or max-error (else _BACKEND_MISSING) by
+                                 collapses alone: more tets, or _REMESH where tets overlap, if they cannot; default 1 */
 };
 enum { TETLOD_EFFORT_FAST = 1, TETLOD_EFFORT_ACCURATE = 2 };
 enum { TETLOD_POLICY_ERROR = 0, TETLOD_POLICY_REPAIR = 1 };
@@ -391,7 +391,7 @@ enum {
  * the boundary is never collapsed or moved, nor are edges between two such (today also with KEEP alone), and fewer
  * edges than sigma asks for may go; a flagged vertex inside is always a sample, however near the boundary, which is
  * decimated less where it would cut it off. Of points that are merged all flags count. tetlod_run returns
- * TETLOD_ERR_ARGUMENT for other bits and for another count, TETLOD_ERR_REMESH when TetGen finds no mesh with all. */
+ * TETLOD_ERR_ARGUMENT for other bits and for another count, TETLOD_ERR_REMESH when there is no mesh with all. */
 TETLOD_API tetlod_status tetlod_submit_point_flags(tetlod_context *context, const tetlod_array *flags);
 /* Forgets what was submitted (the arrays may go), keeps options and the last result. */
 TETLOD_API tetlod_status tetlod_clear(tetlod_context *context);

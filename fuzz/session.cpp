@@ -210,7 +210,8 @@ void Session::check_trouble(const char *call, tetlod_status status, const Distur
     DEMAND(option(TETLOD_OPT_TIME_LIMIT) > 0 && option(TETLOD_OPT_TIME_LIMIT) < patience, "%s: time is up: %s", call,
            said.c_str());
   if (status == TETLOD_ERR_BACKEND_MISSING)
-    DEMAND(conditions_.no_remesher || option(TETLOD_OPT_REMESH) == 0, "%s: no worker: %s", call, said.c_str());
+    DEMAND(option(TETLOD_OPT_REMESH) == 0 ? !has_target() : conditions_.no_remesher, "%s: no worker: %s", call,
+           said.c_str());
 }
 
 bool Session::undisturbed_success_expected(const Mesh &mesh) const {

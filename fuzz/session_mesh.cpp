@@ -151,6 +151,7 @@ void Session::accept(const Mesh &mesh, const Facts &facts) {
   report.struct_size = sizeof report;
   tetlod_fetch_report(context_, &report);
   hash_ = report.hash;
+  if (option(TETLOD_OPT_REMESH) == 0) DEMAND(report.remesh_attempts == 0, "nothing is remeshed with remesh 0");
   check_target();
   accept_fields(mesh);
 }

@@ -110,8 +110,9 @@ void PageHeap::add_piece(char *begin, std::size_t bytes) noexcept {
 bool PageHeap::grow(std::size_t bytes) noexcept {
   std::size_t size = round_up(bytes, huge_page);
   char *begin = map_huge(size);
-  if (begin && !move_pieces(begin, size)) {
-    unmap(begin, size);
+  if (char *const hole = begin ? move_pieces(begin, size) : nullptr) {
+    unmap(begin, std::size_t(hole - begin));
+    unmap(hole + huge_page, size - std::size_t(hole + huge_page - begin));
     begin = nullptr;
   }
   if (!begin) {
@@ -125,8 +126,8 @@ bool PageHeap::grow(std::size_t bytes) noexcept {
 }
 
 /// The whole huge pages of pieces, which are all too small, come to lie from `to` on, so many bytes at most: the system
-/// need not clear others. False: it lets them not; then some may be lost.
-bool PageHeap::move_pieces(char *to, std::size_t bytes) noexcept {
+/// need not clear others. Returns the place to which it lets none move, where nothing may be mapped then; else null.
+char *PageHeap::move_pieces(char *to, std::size_t bytes) noexcept {
   const auto keep = [](Piece **&link, char *begin, char *end) {
     if (begin == end) return;
     *link = new (begin) Piece{std::size_t(end - begin), *link};
@@ -148,9 +149,9 @@ bool PageHeap::move_pieces(char *to, std::size_t bytes) noexcept {
     }
     keep(link, begin, first);
     keep(link, at, end);
-    if (at < last && bytes > 0) return false;
+    if (at < last && bytes > 0) return to;
   }
-  return true;
+  return nullptr;
 }
 
 }  // namespace tetlod

@@ -55,7 +55,7 @@ class Pipeline {
   void run(Worker &worker) {
     begin();
     if (as_published(options_)) {
-      if (!options_.remesh) fail(Status::backend_missing, "no target ratio, no bound, and remesh is 0");
+      if (!options_.remesh) fail(Status::backend_missing, "remesh is 0, and neither target-ratio nor max-error is set");
       decimate(budget_.sigma);
       simplify(worker);
       reconstruct_field();
@@ -154,8 +154,9 @@ class Pipeline {
     const OriginalSolid original{original_.view, boundary_, prepared_.surface(job_), prepared_.topology(job_)};
     const std::string wrong = decimate_solid_and_check(original, options, sizes.lowered, history, job_, coarse);
     if (wrong.empty()) return true;
-    failure_ = "edges collapsed in vain: " + wrong;
-    if (job_.log) job_.log(1, failure_.c_str());
+    const std::string failure = "edges collapsed in vain: " + wrong;
+    if (job_.log) job_.log(1, failure.c_str());
+    if (failure_.empty()) failure_ = failure;
     return false;
   }
 
@@ -361,7 +362,7 @@ class Pipeline {
   TetMesh &mesh_;
   Report &report_;
   Budget budget_;
-  std::string failure_;  // of what was tried last
+  std::string failure_;  // of the last remeshing, or, without one, of the first collapses
   Original &original_{prepared_.original};
   Boundary &boundary_{prepared_.boundary};
   Surface surface_{job_.memory};                // the simplified boundary

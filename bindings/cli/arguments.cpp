@@ -29,7 +29,7 @@ constexpr NumberOption kNumberOptions[] = {
     {"target-ratio",
      "tets kept, fraction of the original's, with less error than the paper's method; 0: by rho and sigma"},
     {"effort", "with a target ratio or a bound: 1 is fast, 2 accurate"},
-    {"remesh", "0: by collapses alone, tetlod-remesh is never started; takes a target ratio or a bound"},
+    {"remesh", "0: by collapses alone, tetlod-remesh is never started; takes target-ratio or max-error"},
     {"max-error", "largest error allowed at the original vertices, fraction of the range; 0: no bound"},
     {"max-deviation", "largest distance allowed between the boundaries, fraction of the diagonal; 0: no bound"},
     {"threads", "0: one a core, which is what the tool does; the library's own default is"},
