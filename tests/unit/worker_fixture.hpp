@@ -53,12 +53,15 @@ inline ProcessState state_of(pid_t pid) {
   return result;
 }
 
+/// Dead or alive. One that is released (X) is seen for a moment after nobody can wait for it any more.
 inline std::vector<pid_t> children_of(pid_t parent) {
   std::vector<pid_t> children;
   DIR *folder = ::opendir("/proc");
   while (const dirent *entry = ::readdir(folder)) {
     const pid_t pid = std::atoi(entry->d_name);
-    if (pid > 0 && state_of(pid).parent == parent) children.push_back(pid);
+    if (pid <= 0) continue;
+    const ProcessState is = state_of(pid);
+    if (is.parent == parent && is.state != 'X') children.push_back(pid);
   }
   ::closedir(folder);
   return children;
