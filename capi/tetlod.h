@@ -332,8 +332,9 @@ enum {
                                    diagonal; more of the boundary is kept than asked for. 0, the default: none */
   TETLOD_OPT_WARM_START = 24, /* real, "warm-start": edges collapse from what an earlier run with other values left, if
                                  by estimate the RMS error grows by no more than this part; 0, the default: not */
-  TETLOD_OPT_REMESH = 25      /* int, "remesh": 0: none is started; target-ratio or max-error (else _BACKEND_MISSING) by
-                                 collapses alone: more tets, or _REMESH where tets overlap, if they cannot; default 1 */
+  TETLOD_OPT_REMESH = 25      /* int, "remesh": 1, the default; 0: no process is started, and target-ratio or max-error
+                                 (without: TETLOD_ERR_BACKEND_MISSING) is met by collapses alone. Where they stop before
+                                 the size, more tets are left; where tets overlap, TETLOD_ERR_REMESH may be all */
 };
 enum { TETLOD_EFFORT_FAST = 1, TETLOD_EFFORT_ACCURATE = 2 };
 enum { TETLOD_POLICY_ERROR = 0, TETLOD_POLICY_REPAIR = 1 };
@@ -414,8 +415,7 @@ TETLOD_API tetlod_status tetlod_estimate_memory(tetlod_context *context, uint64_
  * TETLOD_ERR_STATE          points, tets or scalars are missing
  * TETLOD_ERR_ARGUMENT       as many scalars as points are needed, and values of what steers beside them; of other
  *                           fields as many tuples as points or tets
- * TETLOD_ERR_MESH_*         see the enumeration
- * TETLOD_ERR_MEMORY_LIMIT, _CANCELLED, _TIME_LIMIT, _REMESH, _BACKEND_MISSING, _MAX_ERROR
+ * TETLOD_ERR_MESH_*, TETLOD_ERR_MEMORY_LIMIT, _CANCELLED, _TIME_LIMIT, _REMESH, _BACKEND_MISSING, _MAX_ERROR
  *
  * A run takes over from earlier ones of its context, with its own bytes but where TETLOD_OPT_WARM_START allows others,
  *   the checks of the mesh, its boundary and how that hangs together, while points, tets, point flags, merge tolerance

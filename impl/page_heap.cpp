@@ -107,14 +107,19 @@ void PageHeap::add_piece(char *begin, std::size_t bytes) noexcept {
   }
 }
 
+/// Whole huge pages: those of pieces first. Null: the system refuses to map or to move; some are gone then.
+char *PageHeap::map_moved(std::size_t bytes) noexcept {
+  char *const begin = map_huge(bytes);
+  char *const hole = begin ? move_pieces(begin, bytes) : nullptr;
+  if (!hole) return begin;
+  unmap(begin, std::size_t(hole - begin));
+  unmap(hole + huge_page, bytes - std::size_t(hole + huge_page - begin));
+  return nullptr;
+}
+
 bool PageHeap::grow(std::size_t bytes) noexcept {
   std::size_t size = round_up(bytes, huge_page);
-  char *begin = map_huge(size);
-  if (char *const hole = begin ? move_pieces(begin, size) : nullptr) {
-    unmap(begin, std::size_t(hole - begin));
-    unmap(hole + huge_page, size - std::size_t(hole + huge_page - begin));
-    begin = nullptr;
-  }
+  char *begin = map_moved(size);
   if (!begin) {
     drop_pieces();
     begin = map_huge(size);

@@ -33,6 +33,7 @@ class PageHeap {
   char *take_piece(std::size_t bytes) noexcept;
   void add_piece(char *begin, std::size_t bytes) noexcept;
   bool grow(std::size_t bytes) noexcept;
+  char *map_moved(std::size_t bytes) noexcept;
   char *move_pieces(char *to, std::size_t bytes) noexcept;
   void drop_pieces() noexcept;
 

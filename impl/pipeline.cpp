@@ -116,7 +116,7 @@ class Pipeline {
       collapse_edges(coarse);
     }
     if (!coarse.is_sound && mesh_.tets.empty()) {
-      if (!options_.remesh)  // or that was looked at before
+      if (!options_.remesh)  // who remeshes has looked at that
         refuse_intersections(prepared_.surface(job_), prepared_.topology(job_), input_.index_base, job_);
       throw Error(Status::remesh, failure_);
     }

@@ -68,7 +68,7 @@ std::string check_volume(Span<const Vec3> points, Span<const Tet> tets, Span<con
   const double volume = six_volumes(points, tets, fraction, job) / 6;
   const Volume expected = enclosed_volume(points, boundary);
   if (std::abs(volume - expected.value) <= tolerance * expected.value + expected.uncertainty) return {};
-  return "the volume is " + number(volume / expected.value) + " of the boundary's";
+  return "tets overlap or are missing: the volume is " + number(volume / expected.value) + " of the boundary's";
 }
 
 }  // namespace tetlod

@@ -46,6 +46,16 @@ struct Cube {
   std::vector<std::int32_t> corners;
 };
 
+/// Of more than 100,000 tets, so that `fast` makes haste, with a front that has no direction of its own.
+inline Cube large_cube_with_front() {
+  Cube cube(26);
+  for (std::size_t v = 0; v < cube.values.size(); v++) {
+    const double *const p = &cube.xyz[3 * v];
+    cube.values[v] = std::tanh(6 * (std::hypot(p[0], p[1], p[2]) - 0.7));
+  }
+  return cube;
+}
+
 /// The cube's layers become spheres.
 inline void make_ball(Cube &cube) {
   for (std::size_t v = 0; v < cube.values.size(); v++) {

@@ -147,16 +147,23 @@ TEST_F(Stamps, MaxDeviation) {
 
 /// Large enough for haste.
 TEST_F(Stamps, Effort) {
-  cube = Cube(26);
-  for (std::size_t v = 0; v < cube.values.size(); v++) {
-    const double *const p = &cube.xyz[3 * v];
-    cube.values[v] = std::tanh(6 * (std::hypot(p[0], p[1], p[2]) - 0.7));
-  }
+  cube = large_cube_with_front();
   set(TETLOD_OPT_TARGET_RATIO, 0.1);
   choose(TETLOD_OPT_THREADS, 2);
   for (int effort : {TETLOD_EFFORT_FAST, TETLOD_EFFORT_ACCURATE, TETLOD_EFFORT_FAST, TETLOD_EFFORT_ACCURATE}) {
     choose(TETLOD_OPT_EFFORT, effort);
     expect_fresh_bytes();
+  }
+}
+
+/// Samples, or what collapses leave.
+TEST_F(Stamps, Remesh) {
+  cube = large_cube_with_front();
+  set(TETLOD_OPT_TARGET_RATIO, 0.02);
+  choose(TETLOD_OPT_EFFORT, TETLOD_EFFORT_FAST);
+  for (int remesh : {1, 0, 1, 0}) {
+    choose(TETLOD_OPT_REMESH, remesh);
+    EXPECT_EQ(expect_fresh_bytes().remesh_attempts > 0, remesh == 1);
   }
 }
 

@@ -1,7 +1,5 @@
 // Option remesh at 0: what is left where no process may be started.
-#include <cmath>
-
-#include "reuse_fixture.hpp"
+#include "fixtures.hpp"
 
 namespace tetlod_test {
 namespace {
@@ -27,43 +25,14 @@ class WithoutRemesher : public testing::Test {
   const Context context = make_context(without_remesher());
 };
 
-/// So large, and so little of it kept, that `fast` would take samples; a front, which has no direction of its own.
-class LargeWithoutRemesher : public WithoutRemesher {
- protected:
-  LargeWithoutRemesher() {
-    cube = Cube(26);
-    for (std::size_t v = 0; v < cube.values.size(); v++) {
-      const double *const p = &cube.xyz[3 * v];
-      cube.values[v] = std::tanh(6 * (std::hypot(p[0], p[1], p[2]) - 0.7));
-    }
-    tetlod_set_int(context.get(), TETLOD_OPT_EFFORT, TETLOD_EFFORT_FAST);
-  }
-};
-
-TEST_F(LargeWithoutRemesher, AFewPercentAreMet) {
+/// So few that `fast` would take samples.
+TEST_F(WithoutRemesher, AFewPercentAreMet) {
+  cube = large_cube_with_front();
+  tetlod_set_int(context.get(), TETLOD_OPT_EFFORT, TETLOD_EFFORT_FAST);
   ASSERT_EQ(run(0.02), TETLOD_OK) << message_of(context.get());
-  const tetlod_run_report report = report_of(context.get());
-  EXPECT_NEAR(double(report.tets_out), 0.02 * double(tets()), 0.03 * 0.02 * double(tets()));
-  EXPECT_EQ(report.remesh_attempts, 0);
+  EXPECT_NEAR(double(report_of(context.get()).tets_out), 0.02 * double(tets()), 0.03 * 0.02 * double(tets()));
   tetlod_set_int(context.get(), TETLOD_OPT_REMESH, 1);
   EXPECT_EQ(tetlod_run(context.get()), TETLOD_ERR_BACKEND_MISSING);
-}
-
-/// Whatever the runs before.
-TEST_F(LargeWithoutRemesher, BytesDependOnTheOptionAlone) {
-  const Context both = make_context();
-  submit(both.get(), cube);
-  tetlod_set_int(both.get(), TETLOD_OPT_EFFORT, TETLOD_EFFORT_FAST);
-  tetlod_set_real(both.get(), TETLOD_OPT_TARGET_RATIO, 0.02);
-  ASSERT_EQ(tetlod_run(both.get()), TETLOD_OK) << message_of(both.get());
-  const std::vector<unsigned char> remeshed = bytes_of(both.get());
-  EXPECT_GT(report_of(both.get()).remesh_attempts, 0);
-  ASSERT_EQ(run(0.02), TETLOD_OK);
-  for (const int remesh : {0, 1, 0}) {
-    tetlod_set_int(both.get(), TETLOD_OPT_REMESH, remesh);
-    ASSERT_EQ(tetlod_run(both.get()), TETLOD_OK);
-    EXPECT_EQ(bytes_of(both.get()), remesh ? remeshed : bytes_of(context.get()));
-  }
 }
 
 TEST_F(WithoutRemesher, CleanEdgesAskForNone) {
