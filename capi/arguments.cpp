@@ -28,6 +28,8 @@ std::int64_t alignment_of(ElementType type) {
 void require_type(const tetlod_array &array, const Shape &shape) {
   const bool reals = array.type == TETLOD_FLOAT32 || array.type == TETLOD_FLOAT64;
   const bool integers = array.type == TETLOD_INT32 || array.type == TETLOD_INT64;
+  if (shape.kind == Shape::numbers && !reals && !integers && array.type != TETLOD_UINT8)
+    fail(Status::argument, "%s: type %d is none of TETLOD_INT32 (1) to TETLOD_UINT8 (5)", shape.name, array.type);
   if (shape.kind == Shape::bytes && array.type != TETLOD_UINT8)
     fail(Status::argument, "%s: type %d is not TETLOD_UINT8 (5)", shape.name, array.type);
   if (shape.kind == Shape::reals && !reals)

@@ -42,8 +42,8 @@ void copy_struct(const Struct &from, Struct *out) {
 struct Shape {
   static constexpr int any_number = 0, most_components = 64;
   const char *name;
-  int components;  ///< or any_number: 1 to most_components
-  enum Kind { reals, integers, bytes } kind;
+  int components;                                      ///< or any_number: 1 to most_components
+  enum Kind { reals, integers, bytes, numbers } kind;  ///< numbers: any of these
 };
 
 /// An array to read from, with less than 2^29 tuples. Nothing of its contents is looked at.

@@ -104,6 +104,17 @@ void put(SteeringField &&field, Input &input) {
   slot_of(field.name, input.steering) = std::move(field);
 }
 
+/// Where values of that type may go to: reals to either of theirs, integers to their own or to one that has them all.
+Shape shape_for(ElementType from, const char *name, int components) {
+  return {name, components, is_integer(from) ? Shape::numbers : Shape::reals};
+}
+
+void require_type_for(ElementType from, ElementType to, const char *name) {
+  if (is_integer(from) && to != from && to != ElementType::int64)
+    fail(Status::argument, "%s: type %d cannot take integers of type %d; that or TETLOD_INT64 (2) can", name, int(to),
+         int(from));
+}
+
 void require_same_components(const StridedArray &original, const StridedArray &simplified) {
   if (original.components != simplified.components)
     fail(Status::argument, "original has %d components, simplified %d", original.components, simplified.components);
@@ -123,7 +134,7 @@ tetlod_status tetlod_submit_field(tetlod_context *handle, const char *name, int3
     require_association(association);
     const std::string called = field_text(name);
     SubmittedField field;
-    field.values = checked_source(values, {called.c_str(), Shape::any_number, Shape::reals});
+    field.values = checked_source(values, {called.c_str(), Shape::any_number, Shape::numbers});
     field.association = Association(association);
     field.name = name;
     put(std::move(field), context.input);
@@ -152,9 +163,13 @@ tetlod_status tetlod_fetch_field(const tetlod_context *handle, const char *name,
     const bool of_cells = field.association == Association::cell;
     const std::size_t tuples = of_cells ? result.mesh.tets.size() : result.mesh.points.size();
     const std::string called = field_text(name);
-    const StridedArray to = checked_destination(dst, {called.c_str(), field.components, Shape::reals}, tuples);
-    const auto components = std::size_t(field.components);
-    write(to, tuples, [&](std::size_t i, int c) { return field.values[i * components + std::size_t(c)]; });
+    const StridedArray to = checked_destination(dst, shape_for(field.type, called.c_str(), field.components), tuples);
+    require_type_for(field.type, to.type, called.c_str());
+    const auto place = [&](std::size_t i, int c) { return i * std::size_t(field.components) + std::size_t(c); };
+    if (is_integer(field.type))
+      write(to, tuples, [&](std::size_t i, int c) { return field.integers[place(i, c)]; });
+    else
+      write(to, tuples, [&](std::size_t i, int c) { return field.values[place(i, c)]; });
   });
 }
 
@@ -174,9 +189,10 @@ tetlod_status tetlod_fetch_stencil(const tetlod_context *handle, int32_t index_b
 tetlod_status tetlod_transfer(tetlod_context *handle, const tetlod_array *original, tetlod_array *simplified) {
   return entry(handle, [&](tetlod_context &context) {
     const Result &result = last_outcome(context).result;
-    const StridedArray from = checked_source(original, {"original", Shape::any_number, Shape::reals});
-    const StridedArray to =
-        checked_destination(simplified, {"simplified", Shape::any_number, Shape::reals}, result.mesh.points.size());
+    const StridedArray from = checked_source(original, {"original", Shape::any_number, Shape::numbers});
+    const StridedArray to = checked_destination(simplified, shape_for(from.type, "simplified", Shape::any_number),
+                                                result.mesh.points.size());
+    require_type_for(from.type, to.type, "simplified");
     require_same_components(from, to);
     if (from.tuples != result.report.points_in)
       fail(Status::argument, "original: %" PRId64 " tuples, the original mesh has %" PRId64 " points", from.tuples,

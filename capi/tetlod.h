@@ -369,8 +369,8 @@ enum {
 };
 /* A field that rides along: tetlod_run carries it over to the result, where tetlod_fetch_field finds it. It has no part
  * in the simplification, and its values may be anything, also NaN. name is copied, not empty, and unique among these
- * fields: submitting it again, with either association, replaces it. values: 1 to 64 components, float32 or float64, as
- * many tuples as points or tets, which tetlod_run looks at. Since 0.1, as all of these. */
+ * fields: submitting it again, with either association, replaces it. values: 1 to 64 components of any type, as many
+ * tuples as points or tets, which tetlod_run looks at. Since 0.1, as all of these. */
 TETLOD_API tetlod_status tetlod_submit_field(tetlod_context *context, const char *name, int32_t association,
                                              const tetlod_array *values);
 /* A further field that steers, beside the scalars: a value a point, 1 component, float32 or float64; 3 at most.
@@ -462,11 +462,11 @@ TETLOD_API tetlod_status tetlod_fetch_boundary(const tetlod_context *context, in
 TETLOD_API tetlod_status tetlod_fetch_scalars(const tetlod_context *context, tetlod_array *dst);
 /* A field that was submitted before the last successful tetlod_run, on its result; dst has as many components as it.
  * One that steered: its value at each point. Of those that rode along, a point field: a tuple a point, the mean of
- * original values that tetlod_fetch_stencil tells; never beyond them, so that the field's range is kept. A cell field:
- * a tuple a tet, the value of the original tet that holds the tet's centroid, or for a centroid outside of the original
- * of the tet at the nearest point of its boundary: no value is made up, so that numbers of regions and materials stay
- * what they are. The result keeps its fields whatever is submitted and however later runs fail. TETLOD_ERR_ARGUMENT:
- * the run carried no such field, or other components. */
+ * original values that tetlod_fetch_stencil tells, never beyond them; of integers the value with the largest weight,
+ * the first of several. A cell field: a tuple a tet, the value of the original tet that holds the tet's centroid, or
+ * for a centroid outside of the original of the tet at the nearest point of its boundary. No number of a material is
+ * made up. Reals go to float32 or float64, integers to int64 or to the type that they had. The result keeps its fields
+ * whatever comes later. TETLOD_ERR_ARGUMENT: the run carried no such field, or other components or another type. */
 TETLOD_API tetlod_status tetlod_fetch_field(const tetlod_context *context, const char *name, tetlod_array *dst);
 /* Each vertex of the result as a mean of original ones: ids (4 components, int32 or int64, numbered from index_base)
  * and their barycentric weights (4 components, float32 or float64), none negative, adding up to 1 within rounding.
@@ -479,9 +479,9 @@ TETLOD_API tetlod_status tetlod_fetch_field(const tetlod_context *context, const
 TETLOD_API tetlod_status tetlod_fetch_stencil(const tetlod_context *context, int32_t index_base, tetlod_array *ids,
                                               tetlod_array *weights);
 /* Moves any other point field (or the same at a later time) to the result by that stencil: simplified[i] = the mean of
- * original[ids[i]], the same bytes as if the run had carried it. original: a tuple for each point of the run's input;
- * simplified: room as for tetlod_fetch_field, as many components (1 to 64), memory of its own. With the context's
- * threads. Statuses as for tetlod_fetch_stencil. */
+ * original[ids[i]], the same bytes as if the run had carried it. original: a tuple for each point of the run's input,
+ * of any type; simplified: room as for tetlod_fetch_field, as many components (1 to 64), memory of its own. With the
+ * context's threads. Statuses as for tetlod_fetch_stencil. */
 TETLOD_API tetlod_status tetlod_transfer(tetlod_context *context, const tetlod_array *original,
                                          tetlod_array *simplified);
 /* TETLOD_ERR_STRUCT_SIZE. */

@@ -23,7 +23,7 @@ void write(const StridedArray &to, std::size_t tuples, const Get &get) {
     case ElementType::int64: return write_as<std::int64_t>(to, tuples, get);
     case ElementType::float32: return write_as<float>(to, tuples, get);
     case ElementType::float64: return write_as<double>(to, tuples, get);
-    case ElementType::uint8: break;  // no shape has it
+    case ElementType::uint8: return write_as<std::uint8_t>(to, tuples, get);
   }
 }
 

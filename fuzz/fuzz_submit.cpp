@@ -15,7 +15,7 @@ namespace fuzz {
 
 namespace {
 
-enum class Kind { reals, integers, bytes };
+enum class Kind { reals, integers, bytes, numbers };
 constexpr std::int32_t any_components = 0;  // 1 to 64, as many as the caller likes
 __extension__ using Wide = __int128;        // numbers that cannot overflow
 
@@ -78,6 +78,7 @@ class Wrongs {
   }
   bool is_of(Kind kind) const {
     if (kind == Kind::bytes) return array_.type == TETLOD_UINT8;
+    if (kind == Kind::numbers) return array_.type >= TETLOD_INT32 && array_.type <= TETLOD_UINT8;
     if (kind == Kind::integers) return array_.type == TETLOD_INT32 || array_.type == TETLOD_INT64;
     return array_.type == TETLOD_FLOAT32 || array_.type == TETLOD_FLOAT64;
   }
@@ -125,7 +126,7 @@ void submit_nonsense(Session &session, Bytes &in) {
   submit_tampered(tets, Kind::integers, 4, in, [c](const tetlod_array *a) { return tetlod_submit_tets(c, a, 1); });
   submit_tampered(values, Kind::reals, 1, in, [c](const tetlod_array *a) { return tetlod_submit_scalars(c, "x", a); });
   submit_tampered(tets, Kind::bytes, 1, in, [c](const tetlod_array *a) { return tetlod_submit_point_flags(c, a); });
-  submit_tampered(points, Kind::reals, any_components, in,
+  submit_tampered(points, Kind::numbers, any_components, in,
                   [c](const tetlod_array *a) { return tetlod_submit_field(c, "f", TETLOD_CELL_FIELD, a); });
   const Block flags(decode_layout(TETLOD_UINT8, tuples, 1, in));
   submit_tampered(flags, Kind::bytes, 1, in, [c](const tetlod_array *a) { return tetlod_submit_point_flags(c, a); });

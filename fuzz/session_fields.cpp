@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "demand.hpp"
+#include "field_values.hpp"
 #include "session.hpp"
 
 namespace fuzz {
@@ -15,37 +16,6 @@ namespace fuzz {
 namespace {
 
 constexpr const char *names[] = {"a", "b", "c", "\xc3\xa9"};
-
-std::int32_t any_real(Bytes &in) { return in.one_in(3) ? TETLOD_FLOAT32 : TETLOD_FLOAT64; }
-std::int32_t any_integer(Bytes &in) { return in.one_in(2) ? TETLOD_INT64 : TETLOD_INT32; }
-std::int32_t any_components(Bytes &in) { return in.one_in(16) ? 64 : std::int32_t(1 + in.below(3)); }
-
-Layout any_layout(std::int32_t type, std::int64_t tuples, std::int32_t components, Bytes &in) {
-  return in.one_in(2) ? decode_layout(type, tuples, components, in) : packed(type, tuples, components);
-}
-
-Layout any_reals(std::int64_t tuples, std::int32_t components, Bytes &in) {
-  return any_layout(any_real(in), tuples, components, in);
-}
-
-Layout any_reals(std::int64_t tuples, Bytes &in) {
-  const std::int32_t components = any_components(in);
-  return any_reals(tuples, components, in);
-}
-
-/// Some are all the same, some numbers of regions, some have holes.
-void fill_field(Block &block, Bytes &in) {
-  const std::size_t kind = in.below(5);
-  const double some = in.real();
-  for (std::int64_t i = 0; i < block.layout().tuples; i++)
-    for (std::int32_t c = 0; c < block.layout().components; c++) switch (kind) {
-        case 0: block.set(i, c, some); break;
-        case 1: block.set(i, c, double(i % 5 + c)); break;
-        case 2: block.set(i, c, double(in.raw<std::int8_t>())); break;
-        case 3: block.set(i, c, in.real()); break;
-        default: block.set(i, c, i % 7 == 3 ? std::nan("") : double(i) - c);
-      }
-}
 
 /// None, a corner of the mesh, anything; and rarely one that means nothing.
 void fill_flags(Block &block, const Mesh &mesh, Bytes &in) {
@@ -65,29 +35,14 @@ void fill_flags(Block &block, const Mesh &mesh, Bytes &in) {
   }
 }
 
+/// Integers go to their own type or to 64 bits.
+bool takes(const Block &room, const Block &values) {
+  const std::int32_t type = room.layout().type;
+  return !is_integer(values) || type == TETLOD_INT64 || type == values.layout().type;
+}
+
 bool same_bytes(const std::vector<double> &a, const std::vector<double> &b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
-}
-
-std::vector<double> values_of(const Block &block) {
-  std::vector<double> values;
-  for (std::int64_t i = 0; i < block.layout().tuples; i++)
-    for (std::int32_t c = 0; c < block.layout().components; c++) values.push_back(block.real(i, c));
-  return values;
-}
-
-bool same_or_both_nan(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
-
-/// The values of a vertex are a mean of those of four, and never beyond them.
-void check_mean(const Stencil &stencil, std::size_t i, std::int32_t component, double value, const Block &original) {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (std::size_t k = 0; k < 4; k++) {
-    const double of = original.real(stencil.ids[i][k], component);
-    if (!std::isfinite(of)) return;
-    low = std::min(low, of);
-    high = std::max(high, of);
-  }
-  DEMAND(value >= low && value <= high, "a mean, %.17g of vertex %zu, is in [%.17g, %.17g]", value, i, low, high);
 }
 
 }  // namespace
@@ -99,7 +54,7 @@ void Session::submit_field(Bytes &in) {
   const std::int32_t association = in.one_in(16) ? 2 : std::int32_t(in.below(2));
   const Block *const owner = association == TETLOD_CELL_FIELD ? tets_ : points_;
   const std::int64_t tuples = (owner ? owner->layout().tuples : 0) + in.one_in(16);
-  blocks_.push_back(std::make_unique<Block>(any_reals(tuples, in)));
+  blocks_.push_back(std::make_unique<Block>(any_numbers(tuples, any_components(in), in)));
   Block *const values = blocks_.back().get();
   fill_field(*values, in);
   const tetlod_array array = values->array();
@@ -164,7 +119,7 @@ bool Session::flags_fit() const {
 std::vector<double> Session::carried(const Field &field) const {
   const bool of_cells = field.association == TETLOD_CELL_FIELD;
   const auto tuples = std::int64_t(of_cells ? last_->tets.size() : last_->points.size());
-  Block block(packed(TETLOD_FLOAT64, tuples, field.values->layout().components));
+  Block block(packed(wide_type(*field.values), tuples, field.values->layout().components));
   tetlod_array array = block.array();
   const tetlod_status status = tetlod_fetch_field(context_, field.name.c_str(), &array);
   DEMAND(status == TETLOD_OK, "a field that rode along can be fetched: %d", status);
@@ -215,7 +170,7 @@ void Session::check_stencil(const Mesh &mesh, const Stencil &stencil) const {
 void Session::check_point_field(const Stencil &stencil, const Carried &carried) const {
   const Block &original = *carried.field.values;
   const std::int32_t components = original.layout().components;
-  Block again(packed(TETLOD_FLOAT64, std::int64_t(stencil.ids.size()), components));
+  Block again(packed(wide_type(original), std::int64_t(stencil.ids.size()), components));
   const tetlod_array from = original.array();
   tetlod_array to = again.array();
   const tetlod_status status = tetlod_transfer(context_, &from, &to);
@@ -224,7 +179,7 @@ void Session::check_point_field(const Stencil &stencil, const Carried &carried) 
          carried.field.name.c_str());
   for (std::size_t i = 0; i < stencil.ids.size(); i++)
     for (std::int32_t c = 0; c < components; c++)
-      check_mean(stencil, i, c, carried.values[i * std::size_t(components) + std::size_t(c)], original);
+      check_moved(stencil, i, c, carried.values[i * std::size_t(components) + std::size_t(c)], original);
 }
 
 /// All fields of a tet are those of one original tet.
@@ -236,7 +191,7 @@ void Session::check_cell_fields() const {
       const std::int32_t components = field.field.values->layout().components;
       for (std::int32_t c = 0; c < components; c++)
         if (!same_or_both_nan(field.values[t * std::size_t(components) + std::size_t(c)],
-                              field.field.values->real(source, c)))
+                              value_of(*field.field.values, source, c)))
           return false;
     }
     return true;
@@ -303,21 +258,23 @@ void Session::fetch_field(Bytes &in) {
   const std::int32_t components = in.one_in(8) ? any_components(in) : right;
   const std::int64_t tuples = known ? std::int64_t(found->values.size()) / right : 0;
   const std::int64_t room = std::max<std::int64_t>(0, tuples + in.between(-1, 3));
-  Block block(any_reals(room, components, in));
+  Block block(known ? any_room_for(*found->field.values, room, components, in) : any_reals(room, components, in));
+  const bool takes_them = !known || takes(block, *found->field.values);
   tetlod_array array = block.array();
   const tetlod_status status = tetlod_fetch_field(context_, name, &array);
   const tetlod_status wanted = !*name                          ? TETLOD_ERR_ARGUMENT
                                : !last_                        ? TETLOD_ERR_STATE
                                : !known || components != right ? TETLOD_ERR_ARGUMENT
                                : room < tuples                 ? TETLOD_ERR_BUFFER_SIZE
+                               : !takes_them                   ? TETLOD_ERR_ARGUMENT
                                                                : TETLOD_OK;
   DEMAND(status == wanted, "field %s x %d into %ld tuples: %d, not %d", name, components, long(room), status, wanted);
   DEMAND(block.rest_untouched(status == TETLOD_OK ? tuples : 0), "only the tuples of the result are written");
   for (std::int64_t i = 0; i < tuples && status == TETLOD_OK; i++)
     for (std::int32_t c = 0; c < right; c++) {
       const double value = found->values[std::size_t(i * right + c)];
-      const double rounded = array.type == TETLOD_FLOAT64 ? value : double(float(value));
-      DEMAND(same_or_both_nan(block.real(i, c), rounded), "element %ld %d is fetched", long(i), c);
+      const double rounded = array.type == TETLOD_FLOAT32 ? double(float(value)) : value;
+      DEMAND(same_or_both_nan(value_of(block, i, c), rounded), "element %ld %d is fetched", long(i), c);
     }
 }
 
@@ -363,15 +320,16 @@ void Session::transfer(Bytes &in) {
   const std::int64_t points = last_ ? std::int64_t(last_->points.size()) : 0;
   const std::int64_t points_in = (last_ ? last_points_->layout().tuples : 3) + in.one_in(16);
   const std::int32_t components = any_components(in);
-  Block original(any_reals(points_in, components, in));
+  Block original(any_numbers(points_in, components, in));
   fill_field(original, in);
   const std::int64_t room = std::max<std::int64_t>(0, points + in.between(-1, 3));
   const std::int32_t components_out = components + in.one_in(16);
-  Block simplified(any_reals(room, components_out, in));
+  Block simplified(any_room_for(original, room, components_out, in));
   const tetlod_array from = original.array();
   tetlod_array to = simplified.array();
   const tetlod_status status = tetlod_transfer(context_, &from, &to);
-  const bool fits = to.components == components && last_ && points_in == last_points_->layout().tuples;
+  const bool fits =
+      to.components == components && takes(simplified, original) && last_ && points_in == last_points_->layout().tuples;
   const tetlod_status wanted = !last_               ? TETLOD_ERR_STATE
                                : to.components > 64 ? TETLOD_ERR_ARGUMENT
                                : room < points      ? TETLOD_ERR_BUFFER_SIZE
@@ -382,11 +340,11 @@ void Session::transfer(Bytes &in) {
   DEMAND(simplified.rest_untouched(status == TETLOD_OK ? points : 0), "only the tuples of the result are written");
   if (status == TETLOD_OK) stencil_was_found();
   if (status != TETLOD_OK || conditions_.memory_limit) return;
-  if (to.type != TETLOD_FLOAT64) return;
+  if (to.type == TETLOD_FLOAT32) return;
   const Stencil means = stencil();
   for (std::size_t i = 0; i < means.ids.size(); i++)
     for (std::int32_t c = 0; c < components; c++)
-      check_mean(means, i, c, simplified.real(std::int64_t(i), c), original);
+      check_moved(means, i, c, value_of(simplified, std::int64_t(i), c), original);
 }
 
 }  // namespace fuzz

@@ -51,12 +51,21 @@ Array<std::int32_t> find_sources(const Options &options, const Original &origina
   return sources;
 }
 
+template <class Way, class T>
+void carry_into(Array<T> &values, const Way &way, std::size_t tuples, const StridedArray &from, Job &job) {
+  values.resize(tuples * std::size_t(from.components));
+  transfer(way, from, packed_array(values.data(), tuples, from.components), job);
+}
+
 template <class Way>
 void carry_along(const Way &way, std::size_t tuples, const SubmittedField &field, Job &job, Result &result) {
+  const StridedArray &from = field.values;
   CarriedField &carried =
-      result.fields.emplace_back(field.name, field.association, field.values.components, job.memory);
-  carried.values.resize(tuples * std::size_t(carried.components));
-  transfer(way, field.values, packed_reals(carried.values.data(), tuples, carried.components), job);
+      result.fields.emplace_back(field.name, field.association, from.type, from.components, job.memory);
+  if (is_integer(from.type))
+    carry_into(carried.integers, way, tuples, from, job);
+  else
+    carry_into(carried.values, way, tuples, from, job);
 }
 
 }  // namespace
@@ -90,8 +99,8 @@ void split_fields(const Input &input, Job &job, Result &result) {
   };
   take(0, result.mesh.scalars);
   for (std::size_t k = 1; k < fields; k++) {
-    const std::string &name = input.steering[k - 1].name;
-    take(k, result.fields.emplace_back(name, Association::point, 1, job.memory).values);
+    const SteeringField &field = input.steering[k - 1];
+    take(k, result.fields.emplace_back(field.name, Association::point, field.values.type, 1, job.memory).values);
   }
 }
 

@@ -12,8 +12,8 @@ void interpolate(const MeshView &mesh, Span<const Triangle> boundary, Span<const
   find_stencils(mesh, boundary, points, leaf, job, stencil);
   const auto fields = int(mesh.fields);
   values.resize(points.size() * mesh.fields);
-  transfer(stencil, packed_reals(mesh.scalars.data(), mesh.points.size(), fields),
-           packed_reals(values.data(), points.size(), fields), job);
+  transfer(stencil, packed_array(mesh.scalars.data(), mesh.points.size(), fields),
+           packed_array(values.data(), points.size(), fields), job);
 }
 
 }  // namespace tetlod

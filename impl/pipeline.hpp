@@ -63,7 +63,7 @@ constexpr std::uint8_t keep_vertex = 1, lock_vertex = 2;
 /// The numbers are those of the C ABI.
 enum class Association : std::int32_t { point = 0, cell = 1 };
 
-/// A field that rides along: float32 or float64, any number of components.
+/// A field that rides along: of any type and number of components.
 struct SubmittedField {
   std::string name;
   Association association = Association::point;
@@ -116,12 +116,14 @@ struct Report {
 
 /// A field of the result: a tuple a point or a tet.
 struct CarriedField {
-  CarriedField(const std::string &of, Association of_what, int components_of, Memory &memory)
-      : name(of), association(of_what), components(components_of), values(&memory) {}
+  CarriedField(const std::string &of, Association of_what, ElementType type_of, int components_of, Memory &memory)
+      : name(of), association(of_what), type(type_of), components(components_of), values(&memory), integers(&memory) {}
   std::string name;
   Association association;
+  ElementType type;  ///< as submitted
   int components;
-  Array<double> values;
+  Array<double> values;          ///< of reals
+  Array<std::int64_t> integers;  ///< of the others
 };
 
 struct Result {

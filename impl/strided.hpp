@@ -2,6 +2,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "mesh.hpp"
 
@@ -19,6 +20,10 @@ constexpr std::size_t element_size(ElementType type) {
     case ElementType::float64: return 8;
   }
   return 0;
+}
+
+constexpr bool is_integer(ElementType type) {
+  return type == ElementType::int32 || type == ElementType::int64 || type == ElementType::uint8;
 }
 
 /// Component c of tuple i is at data + i * tuple_stride + c * component_stride (bytes). Checked before it gets here.
@@ -49,14 +54,17 @@ struct StridedArray {
   }
 };
 
-/// An array of the library's own.
-inline StridedArray packed_reals(const double *data, std::size_t tuples, int components) {
+/// An array of the library's own, of doubles or of integers of 64 bits.
+template <class T>
+StridedArray packed_array(const T *data, std::size_t tuples, int components) {
+  static_assert(sizeof(T) == 8, "");
   StridedArray array;
+  array.type = std::is_integral_v<T> ? ElementType::int64 : ElementType::float64;
   array.tuples = std::int64_t(tuples);
   array.components = components;
-  array.component_stride = sizeof(double);
+  array.component_stride = sizeof(T);
   array.tuple_stride = components * array.component_stride;
-  array.data = reinterpret_cast<unsigned char *>(const_cast<double *>(data));
+  array.data = reinterpret_cast<unsigned char *>(const_cast<T *>(data));
   array.present = true;
   return array;
 }

@@ -1,6 +1,8 @@
 #include "transfer.hpp"
 
+#include <algorithm>
 #include <limits>
+#include <type_traits>
 
 namespace tetlod {
 
@@ -20,14 +22,25 @@ double mean(const unsigned char *const tuple[4], std::int64_t offset, const std:
   return sum < low ? low : sum > high ? high : sum;
 }
 
-/// move(i, from type, to type) for the types of the two arrays.
+/// move(a From, a To), of the types of the two arrays; To is `Narrow` or `Wide`.
+template <class From, class Narrow, class Wide, class Move>
+void for_types_from(bool wide, const Move &move) {
+  if (wide)
+    move(From(), Wide());
+  else
+    move(From(), Narrow());
+}
+
 template <class Move>
 void for_types(const StridedArray &from, const StridedArray &to, const Move &move) {
-  const bool wide_from = from.type == ElementType::float64, wide_to = to.type == ElementType::float64;
-  if (wide_from && wide_to) move(double(), double());
-  if (wide_from && !wide_to) move(double(), float());
-  if (!wide_from && wide_to) move(float(), double());
-  if (!wide_from && !wide_to) move(float(), float());
+  const bool wide = element_size(to.type) == 8;
+  switch (from.type) {
+    case ElementType::uint8: return for_types_from<std::uint8_t, std::uint8_t, std::int64_t>(wide, move);
+    case ElementType::int32: return for_types_from<std::int32_t, std::int32_t, std::int64_t>(wide, move);
+    case ElementType::int64: return move(std::int64_t(), std::int64_t());
+    case ElementType::float32: return for_types_from<float, float, double>(wide, move);
+    case ElementType::float64: return for_types_from<double, float, double>(wide, move);
+  }
 }
 
 template <class From, class To>
@@ -44,6 +57,12 @@ void move_mean(const Stencil &stencil, std::size_t i, const StridedArray &from, 
                                 : mean<From>(tuple, c * in_stride, weights);
     reinterpret_cast<To *>(out)[0] = To(value);
   }
+}
+
+/// The vertex that counts most; of several the first.
+std::int32_t heaviest(const Stencil &stencil, std::size_t i) {
+  const std::array<double, 4> &weights = stencil.weights[i];
+  return stencil.ids[i][std::size_t(std::max_element(weights.begin(), weights.end()) - weights.begin())];
 }
 
 /// Original vertices lie anywhere in memory: they are asked for some points ahead.
@@ -66,10 +85,15 @@ void move_copy(std::int32_t id, std::size_t i, const StridedArray &from, const S
 
 void transfer(const Stencil &stencil, const StridedArray &from, const StridedArray &to, Job &job) {
   for_types(from, to, [&](auto in, auto out) {
+    using From = decltype(in);
+    using To = decltype(out);
     job.parallel.for_blocks(stencil.ids.size(), block, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; i++) {
         prefetch(stencil, i, from);
-        move_mean<decltype(in), decltype(out)>(stencil, i, from, to);
+        if constexpr (std::is_integral_v<From>)
+          move_copy<From, To>(heaviest(stencil, i), i, from, to);
+        else
+          move_mean<From, To>(stencil, i, from, to);
       }
       job.poll(1);
     });

@@ -13,15 +13,17 @@ module tetlod_fields_of_result
 
   type, extends(tetlod_input), public :: tetlod_fields
   contains
-    generic :: submit_field => submit_field_r32, submit_field_r64
+    generic :: submit_field => submit_field_r32, submit_field_r64, submit_field_i32, submit_field_i64
     generic :: submit_steering => submit_steering_r32, submit_steering_r64
-    generic :: fetch_field => fetch_field_r32, fetch_field_r64
+    generic :: fetch_field => fetch_field_r32, fetch_field_r64, fetch_field_i32, fetch_field_i64
     generic :: fetch_stencil => fetch_stencil_i32, fetch_stencil_i64
-    generic :: transfer => transfer_r32, transfer_r64
+    generic :: transfer => transfer_r32, transfer_r64, transfer_i32, transfer_i64
     procedure :: submit_point_flags
-    procedure, private :: submit_field_r32, submit_field_r64, fetch_field_r32, fetch_field_r64
+    procedure, private :: submit_field_r32, submit_field_r64, submit_field_i32, submit_field_i64
+    procedure, private :: fetch_field_r32, fetch_field_r64, fetch_field_i32, fetch_field_i64
     procedure, private :: submit_steering_r32, submit_steering_r64
-    procedure, private :: fetch_stencil_i32, fetch_stencil_i64, transfer_r32, transfer_r64
+    procedure, private :: fetch_stencil_i32, fetch_stencil_i64
+    procedure, private :: transfer_r32, transfer_r64, transfer_i32, transfer_i64
   end type
 
 contains
@@ -171,5 +173,83 @@ contains
     to_ids = array_of(ids)
     to_weights = array_of(weights)
     call this%settle(c_fetch_stencil(this%c_handle(), base, to_ids, to_weights), stat, errmsg)
+  end subroutine
+
+  ! values(components, n), a tuple a point or a tet by association: TETLOD_POINT_FIELD, TETLOD_CELL_FIELD; borrowed.
+  subroutine submit_field_i32(this, name, association, values, stat, errmsg)
+    class(tetlod_fields), intent(inout) :: this
+    character(len=*), intent(in) :: name
+    integer(c_int32_t), intent(in) :: association
+    integer(int32), intent(in), target :: values(:, :)
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    character(kind=c_char), target :: text(len_trim(name) + 1)
+    text = c_text(name)
+    call this%settle(c_submit_field(this%c_handle(), c_loc(text), association, array_of(values)), stat, errmsg)
+  end subroutine
+
+  ! values(components, n), with room for the result's points or tets.
+  subroutine fetch_field_i32(this, name, values, stat, errmsg)
+    class(tetlod_fields), intent(inout) :: this
+    character(len=*), intent(in) :: name
+    integer(int32), intent(inout), target :: values(:, :)
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    character(kind=c_char), target :: text(len_trim(name) + 1)
+    type(tetlod_array) :: dst
+    text = c_text(name)
+    dst = array_of(values)
+    call this%settle(c_fetch_field(this%c_handle(), c_loc(text), dst), stat, errmsg)
+  end subroutine
+
+  ! Any point field, original(components, points of the run), to simplified(components, points of the result).
+  subroutine transfer_i32(this, original, simplified, stat, errmsg)
+    class(tetlod_fields), intent(inout) :: this
+    integer(int32), intent(in), target :: original(:, :)
+    integer(int32), intent(inout), target :: simplified(:, :)
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(tetlod_array) :: dst
+    dst = array_of(simplified)
+    call this%settle(c_transfer(this%c_handle(), array_of(original), dst), stat, errmsg)
+  end subroutine
+
+  ! values(components, n), a tuple a point or a tet by association: TETLOD_POINT_FIELD, TETLOD_CELL_FIELD; borrowed.
+  subroutine submit_field_i64(this, name, association, values, stat, errmsg)
+    class(tetlod_fields), intent(inout) :: this
+    character(len=*), intent(in) :: name
+    integer(c_int32_t), intent(in) :: association
+    integer(int64), intent(in), target :: values(:, :)
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    character(kind=c_char), target :: text(len_trim(name) + 1)
+    text = c_text(name)
+    call this%settle(c_submit_field(this%c_handle(), c_loc(text), association, array_of(values)), stat, errmsg)
+  end subroutine
+
+  ! values(components, n), with room for the result's points or tets.
+  subroutine fetch_field_i64(this, name, values, stat, errmsg)
+    class(tetlod_fields), intent(inout) :: this
+    character(len=*), intent(in) :: name
+    integer(int64), intent(inout), target :: values(:, :)
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    character(kind=c_char), target :: text(len_trim(name) + 1)
+    type(tetlod_array) :: dst
+    text = c_text(name)
+    dst = array_of(values)
+    call this%settle(c_fetch_field(this%c_handle(), c_loc(text), dst), stat, errmsg)
+  end subroutine
+
+  ! Any point field, original(components, points of the run), to simplified(components, points of the result).
+  subroutine transfer_i64(this, original, simplified, stat, errmsg)
+    class(tetlod_fields), intent(inout) :: this
+    integer(int64), intent(in), target :: original(:, :)
+    integer(int64), intent(inout), target :: simplified(:, :)
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(tetlod_array) :: dst
+    dst = array_of(simplified)
+    call this%settle(c_transfer(this%c_handle(), array_of(original), dst), stat, errmsg)
   end subroutine
 end module

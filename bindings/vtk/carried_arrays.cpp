@@ -1,11 +1,11 @@
 #include "carried_arrays.hpp"
 
 #include <vtkCellData.h>
-#include <vtkDoubleArray.h>
 #include <vtkInformation.h>
 #include <vtkInformationStringKey.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkTypeInt64Array.h>
 
 #include <numeric>
 
@@ -61,10 +61,10 @@ vtkSmartPointer<vtkDataArray> array_for(vtkDataArray &original, int type, int64_
 }
 
 LentArray counted(vtkIdType count) {
-  vtkNew<vtkDoubleArray> numbers;
+  vtkNew<vtkTypeInt64Array> numbers;
   numbers->SetNumberOfValues(count);
-  std::iota(numbers->GetPointer(0), numbers->GetPointer(0) + count, 0.0);
-  return lend_reals(numbers);
+  std::iota(numbers->GetPointer(0), numbers->GetPointer(0) + count, 0);
+  return {numbers.Get(), room_in(numbers, 1)};
 }
 
 void fetch(const tetlod::Context &context, const std::string &key, vtkDataArray &values) {
@@ -112,13 +112,13 @@ std::vector<vtkSmartPointer<vtkDataArray>> fetch_all(const tetlod::Context &cont
                                                      int64_t tets) {
   std::vector<vtkSmartPointer<vtkDataArray>> all;
   if (arrays.all.empty()) return all;
-  vtkNew<vtkDoubleArray> numbers;
+  vtkNew<vtkTypeInt64Array> numbers;
   numbers->SetNumberOfValues(tets);
   fetch(context, kTetNumbers, *numbers);
   for (const CellArrays::One &one : arrays.all) {
     all.push_back(array_for(*one.original, one.original->GetDataType(), tets));
     for (vtkIdType t = 0; t < tets; t++) {
-      const auto of_tet = vtkIdType(numbers->GetValue(t));
+      const vtkIdType of_tet = numbers->GetValue(t);
       all.back()->SetTuple(t, arrays.cells ? vtkIdType(arrays.cells->GetComponent(of_tet, 0)) : of_tet, one.original);
     }
   }

@@ -26,7 +26,7 @@ LentArray lend_corners(vtkDataArray *connectivity);
 // another reason.
 LentArray lend_component(vtkDataArray *array, int component);
 
-// Room for the library's results in an interleaved array of floats, doubles or 32 bit integers.
+// An interleaved array of floats, doubles or integers of 32 or 64 bits, to read from or to write results to.
 tetlod_array room_in(vtkDataArray *array, int32_t components);
 
 }  // namespace tetlod_vtk

@@ -74,6 +74,21 @@ class Fields : public testing::Test {
     return field;
   }
 
+  template <class T>
+  tetlod_status carry_integers(const char *name, std::int32_t type, const std::vector<T> &field, int components,
+                               int association) {
+    const tetlod_array array = array_of(type, field.size() / std::size_t(components), components, field.data());
+    return tetlod_submit_field(context.get(), name, association, &array);
+  }
+
+  template <class T>
+  std::vector<T> fetch_integers(const char *name, std::int32_t type, int components, std::size_t tuples) {
+    std::vector<T> field(tuples * std::size_t(components), T(99));
+    tetlod_array array = array_of(type, tuples, components, field.data());
+    EXPECT_EQ(tetlod_fetch_field(context.get(), name, &array), TETLOD_OK) << message_of(context.get());
+    return field;
+  }
+
   std::vector<double> move(const std::vector<double> &field, int components) {
     std::vector<double> moved(points_out() * std::size_t(components), -99);
     const tetlod_array from = array_of(TETLOD_FLOAT64, points(), components, field.data());

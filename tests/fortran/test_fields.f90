@@ -122,16 +122,23 @@ contains
   subroutine test_cell_fields()
     type(tetlod_context) :: lod
     real(real64), allocatable, target :: region(:, :)
+    integer(int32), allocatable, target :: material(:, :)
+    integer(int64), allocatable, target :: name(:, :)
     real(real64), allocatable :: small(:, :), points(:, :)
-    integer(int32), allocatable :: corners(:, :)
+    integer(int32), allocatable :: corners(:, :), materials(:, :)
+    integer(int64), allocatable :: names(:, :), moved(:, :), wide_materials(:, :)
     integer(int64) :: n, m
     integer :: t, agreed
     allocate (region(1, size(tets, 2)))
     do t = 1, size(tets, 2)
       region(1, t) = merge(7, 3, sum(xyz(1, tets(:, t))) > 2)
     end do
+    allocate (material, source=nint(region, int32))
+    allocate (name, source=reshape([(2_int64**60 + t, t=1, size(xyz, 2))], [1, size(xyz, 2)]))
     call begin(lod)
     call lod%submit_field("region", TETLOD_CELL_FIELD, region)
+    call lod%submit_field("material", TETLOD_CELL_FIELD, material)
+    call lod%submit_field("name", TETLOD_POINT_FIELD, name)
     call lod%run()
     call lod%fetch_counts(n, m)
     call lod%fetch_points(points)
@@ -145,8 +152,33 @@ contains
       if (nint(small(1, t)) == merge(7, 3, sum(points(1, corners(:, t))) > 2)) agreed = agreed + 1
     end do
     call expect(agreed == m, "each tet has the region that its centroid is in")
+    allocate (materials(1, m), wide_materials(1, m), names(1, n), moved(1, n))
+    call lod%fetch_field("material", materials)
+    call lod%fetch_field("material", wide_materials)
+    call expect(all(materials == nint(small)) .and. all(wide_materials == materials), "integers of cells")
+    call lod%fetch_field("name", names)
+    call expect(all(names > 2_int64**60) .and. all(names <= 2_int64**60 + size(xyz, 2)), "integers of points")
+    call expect(all(same(xyz(:, names(1, :) - 2_int64**60), points)), "an original is itself")
+    call lod%transfer(name, moved)
+    call expect(all(moved == names), "transfer of int64")
+    moved = transferred(lod)
+    call expect(all(moved == names - 2_int64**60), "transfer of int32")
     call lod%destroy()
   end subroutine
+
+  ! The numbers of the points, in 32 bits.
+  function transferred(lod) result(numbers)
+    type(tetlod_context), intent(inout) :: lod
+    integer(int32), allocatable, target :: number(:, :), small(:, :)
+    integer(int64), allocatable :: numbers(:, :)
+    integer(int64) :: n
+    integer(int32) :: i
+    call lod%fetch_counts(n)
+    allocate (number, source=reshape([(i, i=1, size(xyz, 2))], [1, size(xyz, 2)]))
+    allocate (small(1, n))
+    call lod%transfer(number, small)
+    numbers = small
+  end function
 
   subroutine test_stencils()
     type(tetlod_context) :: lod

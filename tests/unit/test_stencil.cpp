@@ -162,8 +162,8 @@ TEST_F(Transfer, LinearFieldsOfManyComponents) {
     std::vector<double> from, to(points.size() * width);
     for (const Vec3 &p : mesh.points)
       for (int c = 0; c < components; c++) from.push_back(linear(p, c));
-    transfer(stencil, packed_reals(from.data(), mesh.points.size(), components),
-             packed_reals(to.data(), points.size(), components), host.job);
+    transfer(stencil, packed_array(from.data(), mesh.points.size(), components),
+             packed_array(to.data(), points.size(), components), host.job);
     for (std::size_t i = 0; i < points.size(); i++)
       for (std::size_t c = 0; c < width; c++) ASSERT_NEAR(to[i * width + c], linear(mean(stencil, i), int(c)), 1e-12);
   }
@@ -178,11 +178,11 @@ TEST_F(Transfer, AnyLayoutAndType) {
   const std::size_t vertices = mesh.points.size(), count = points.size();
   StridedArray packed = strided(from.data(), vertices, 3, 3, ElementType::float32);
   std::vector<double> wanted(3 * count);
-  transfer(stencil, packed, packed_reals(wanted.data(), count, 3), host.job);
+  transfer(stencil, packed, packed_array(wanted.data(), count, 3), host.job);
   std::vector<double> separate(3 * vertices);  // x x y y z z, backwards
   for (std::size_t v = 0; v < vertices; v++)
     for (std::size_t c = 0; c < 3; c++) separate[c * vertices + vertices - 1 - v] = from[3 * v + c];
-  StridedArray backwards = packed_reals(separate.data() + vertices - 1, vertices, 3);
+  StridedArray backwards = packed_array(separate.data() + vertices - 1, vertices, 3);
   backwards.tuple_stride = -std::int64_t(sizeof(double));
   backwards.component_stride = std::int64_t(vertices * sizeof(double));
   std::vector<float> spread(5 * count, -7.f);
@@ -200,7 +200,7 @@ TEST_F(Transfer, ConstantsStayWhatTheyAre) {
   for (double constant : {913.1500244140625, 0.1, -1.0 / 3, most, infinity, -infinity}) {
     const std::vector<double> from(mesh.points.size(), constant);
     std::vector<double> to(points.size());
-    transfer(stencil, packed_reals(from.data(), from.size(), 1), packed_reals(to.data(), to.size(), 1), host.job);
+    transfer(stencil, packed_array(from.data(), from.size(), 1), packed_array(to.data(), to.size(), 1), host.job);
     for (double value : to) ASSERT_EQ(value, constant);
   }
 }
@@ -213,7 +213,7 @@ TEST_F(Transfer, NanSpreadsNoFurtherThanItsTets) {
   std::vector<double> from(mesh.points.size(), 2), to(points.size());
   for (double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     from[sick] = bad;
-    transfer(stencil, packed_reals(from.data(), from.size(), 1), packed_reals(to.data(), to.size(), 1), host.job);
+    transfer(stencil, packed_array(from.data(), from.size(), 1), packed_array(to.data(), to.size(), 1), host.job);
     int spoilt = 0;
     for (std::size_t i = 0; i < points.size(); i++) {
       double share = 0;
@@ -233,9 +233,9 @@ TEST_F(Transfer, ThreadsDoNotMatter) {
   const Stencil stencil = find();
   std::vector<double> from(mesh.points.size()), one(points.size()), two(points.size());
   for (double &value : from) value = double(random() % 1000) / 7;
-  transfer(stencil, packed_reals(from.data(), from.size(), 1), packed_reals(one.data(), one.size(), 1), host.job);
+  transfer(stencil, packed_array(from.data(), from.size(), 1), packed_array(one.data(), one.size(), 1), host.job);
   Host other(2);
-  transfer(stencil, packed_reals(from.data(), from.size(), 1), packed_reals(two.data(), two.size(), 1), other.job);
+  transfer(stencil, packed_array(from.data(), from.size(), 1), packed_array(two.data(), two.size(), 1), other.job);
   EXPECT_EQ(one, two);
 }
 
@@ -245,7 +245,7 @@ TEST_F(Transfer, CopiesByNumber) {
   std::vector<double> to(8, -1);
   Array<std::int32_t> sources(ids.begin(), ids.end(), &host.memory);
   transfer(Span<const std::int32_t>(sources), strided(from.data(), 4, 2, 2, ElementType::float32),
-           packed_reals(to.data(), 4, 2), host.job);
+           packed_array(to.data(), 4, 2), host.job);
   EXPECT_EQ(to, (std::vector<double>{3, 13, 0, 10, 3, 13, 1, 11}));
 }
 
