@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "most_needed.hpp"
-#include "refine.hpp"
 
 namespace tetlod {
 
@@ -14,6 +13,8 @@ constexpr double near_enough = 0.98;
 /// A vertex with more weight at a corner is no other place; with less at one, it goes onto the face of the others, or
 /// their edge.
 constexpr double near_corner = 0.8, near_face = 0.02;
+/// Of so few tets, the dozen that a vertex on an edge may bring are too many.
+constexpr std::int64_t few_tets = 500;
 
 /// How many of the original's vertices are in a tet, and which one is the furthest from its corners.
 template <std::size_t m>

@@ -17,15 +17,12 @@ struct RefineOptions {
   double max_deviation = 0;          ///< of a new vertex of the boundary from the original's; 0: no limit
 };
 
-/// Of so few tets, the dozen that a vertex on an edge may bring are too many.
-constexpr std::int64_t few_tets = 500;
-
-/// Of so many tets, those that there shall be before the largest errors get the rest: for a hundredth of the tets the
-/// largest is a third less, and the mean no more. Of few tets all. With a bound the largest errors get as many as they
-/// need.
+/// Of so many tets, those that there shall be before the largest errors get the rest: for three hundredths of the tets
+/// the largest is half as large, and the mean no more. Of few tets all. With a bound the largest errors get as many as
+/// they need.
 inline std::int64_t before_lowering(std::int64_t tets, double bound) {
-  constexpr std::int64_t part = 100;
-  return tets < few_tets || bound > 0 ? tets : tets - tets / part;
+  constexpr std::int64_t few = 100;
+  return tets < few || bound > 0 ? tets : tets - tets * 3 / 100;
 }
 
 struct RefineReport {
