@@ -90,7 +90,6 @@ Layout any_room_for(const Block &values, std::int64_t tuples, std::int32_t compo
   return any_layout(type, tuples, components, in);
 }
 
-/// A real; an integer, as none is negative, by the double of the same bits, so that nothing is lost.
 double value_of(const Block &block, std::int64_t tuple, std::int32_t component) {
   if (!is_integer(block)) return block.real(tuple, component);
   const std::int64_t integer = block.integer(tuple, component);
