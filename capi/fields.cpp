@@ -104,15 +104,15 @@ void put(SteeringField &&field, Input &input) {
   slot_of(field.name, input.steering) = std::move(field);
 }
 
-/// Where values of that type may go to: reals to either of theirs, integers to their own or to one that has them all.
-Shape shape_for(ElementType from, const char *name, int components) {
-  return {name, components, is_integer(from) ? Shape::numbers : Shape::reals};
-}
-
-void require_type_for(ElementType from, ElementType to, const char *name) {
-  if (is_integer(from) && to != from && to != ElementType::int64)
-    fail(Status::argument, "%s: type %d cannot take integers of type %d; that or TETLOD_INT64 (2) can", name, int(to),
-         int(from));
+/// For values of that type: reals go to either of theirs, integers to their own or to one that has them all.
+StridedArray checked_room(const tetlod_array *array, ElementType from, const char *name, int components,
+                          std::size_t tuples) {
+  const Shape shape{name, components, is_integer(from) ? Shape::numbers : Shape::reals};
+  const StridedArray to = checked_destination(array, shape, tuples);
+  if (is_integer(from) && to.type != from && to.type != ElementType::int64)
+    fail(Status::argument, "%s: type %d cannot take integers of type %d; that or TETLOD_INT64 (2) can", name,
+         int(to.type), int(from));
+  return to;
 }
 
 void require_same_components(const StridedArray &original, const StridedArray &simplified) {
@@ -163,8 +163,7 @@ tetlod_status tetlod_fetch_field(const tetlod_context *handle, const char *name,
     const bool of_cells = field.association == Association::cell;
     const std::size_t tuples = of_cells ? result.mesh.tets.size() : result.mesh.points.size();
     const std::string called = field_text(name);
-    const StridedArray to = checked_destination(dst, shape_for(field.type, called.c_str(), field.components), tuples);
-    require_type_for(field.type, to.type, called.c_str());
+    const StridedArray to = checked_room(dst, field.type, called.c_str(), field.components, tuples);
     const auto place = [&](std::size_t i, int c) { return i * std::size_t(field.components) + std::size_t(c); };
     if (is_integer(field.type))
       write(to, tuples, [&](std::size_t i, int c) { return field.integers[place(i, c)]; });
@@ -190,9 +189,8 @@ tetlod_status tetlod_transfer(tetlod_context *handle, const tetlod_array *origin
   return entry(handle, [&](tetlod_context &context) {
     const Result &result = last_outcome(context).result;
     const StridedArray from = checked_source(original, {"original", Shape::any_number, Shape::numbers});
-    const StridedArray to = checked_destination(simplified, shape_for(from.type, "simplified", Shape::any_number),
-                                                result.mesh.points.size());
-    require_type_for(from.type, to.type, "simplified");
+    const StridedArray to =
+        checked_room(simplified, from.type, "simplified", Shape::any_number, result.mesh.points.size());
     require_same_components(from, to);
     if (from.tuples != result.report.points_in)
       fail(Status::argument, "original: %" PRId64 " tuples, the original mesh has %" PRId64 " points", from.tuples,

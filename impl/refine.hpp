@@ -18,8 +18,8 @@ struct RefineOptions {
 };
 
 /// Of so many tets, those that there shall be before the largest errors get the rest: for three hundredths of the tets
-/// the largest is half as large, and the mean no more. Of few tets all. With a bound the largest errors get as many as
-/// they need.
+/// the largest is 0.5 to 0.6 of it, and the mean no more. Of few tets all. With a bound the largest errors get as many
+/// as they need.
 inline std::int64_t before_lowering(std::int64_t tets, double bound) {
   constexpr std::int64_t few = 100;
   return tets < few || bound > 0 ? tets : tets - tets * 3 / 100;

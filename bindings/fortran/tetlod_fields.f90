@@ -37,6 +37,72 @@ contains
     call this%settle(c_submit_point_flags(this%c_handle(), array_of(flags)), stat, errmsg)
   end subroutine
 
+  ! ---- What all kinds have in common
+
+  subroutine lend_field(this, name, association, values, stat, errmsg)
+    class(tetlod_fields), intent(inout) :: this
+    character(len=*), intent(in) :: name
+    integer(c_int32_t), intent(in) :: association
+    type(tetlod_array), intent(in) :: values
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    character(kind=c_char), target :: text(len_trim(name) + 1)
+    text = c_text(name)
+    call this%settle(c_submit_field(this%c_handle(), c_loc(text), association, values), stat, errmsg)
+  end subroutine
+
+  subroutine lend_steering(this, name, weight, values, stat, errmsg)
+    class(tetlod_fields), intent(inout) :: this
+    character(len=*), intent(in) :: name
+    real(real64), intent(in) :: weight
+    type(tetlod_array), intent(in) :: values
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    character(kind=c_char), target :: text(len_trim(name) + 1)
+    text = c_text(name)
+    call this%settle(c_submit_steering(this%c_handle(), c_loc(text), weight, values), stat, errmsg)
+  end subroutine
+
+  subroutine fill_field(this, name, values, stat, errmsg)
+    class(tetlod_fields), intent(inout) :: this
+    character(len=*), intent(in) :: name
+    type(tetlod_array), intent(in) :: values
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    character(kind=c_char), target :: text(len_trim(name) + 1)
+    type(tetlod_array) :: dst
+    text = c_text(name)
+    dst = values
+    call this%settle(c_fetch_field(this%c_handle(), c_loc(text), dst), stat, errmsg)
+  end subroutine
+
+  subroutine move_field(this, original, simplified, stat, errmsg)
+    class(tetlod_fields), intent(inout) :: this
+    type(tetlod_array), intent(in) :: original, simplified
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(tetlod_array) :: dst
+    dst = simplified
+    call this%settle(c_transfer(this%c_handle(), original, dst), stat, errmsg)
+  end subroutine
+
+  subroutine fill_stencil(this, ids, weights, index_base, stat, errmsg)
+    class(tetlod_fields), intent(inout) :: this
+    type(tetlod_array), intent(in) :: ids, weights
+    integer, intent(in), optional :: index_base
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(tetlod_array) :: to_ids, to_weights
+    integer(c_int32_t) :: base
+    base = 1
+    if (present(index_base)) base = int(index_base, c_int32_t)
+    to_ids = ids
+    to_weights = weights
+    call this%settle(c_fetch_stencil(this%c_handle(), base, to_ids, to_weights), stat, errmsg)
+  end subroutine
+
+  ! ---- One of each kind
+
   ! values(n): a further field that steers, its errors weighted by weight (0 to 1e6); borrowed.
   subroutine submit_steering_r32(this, name, weight, values, stat, errmsg)
     class(tetlod_fields), intent(inout) :: this
@@ -45,9 +111,7 @@ contains
     real(real32), intent(in), target :: values(:)
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    character(kind=c_char), target :: text(len_trim(name) + 1)
-    text = c_text(name)
-    call this%settle(c_submit_steering(this%c_handle(), c_loc(text), weight, array_of(values)), stat, errmsg)
+    call lend_steering(this, name, weight, array_of(values), stat, errmsg)
   end subroutine
 
   ! values(components, n), a tuple a point or a tet by association: TETLOD_POINT_FIELD, TETLOD_CELL_FIELD; borrowed.
@@ -58,9 +122,7 @@ contains
     real(real32), intent(in), target :: values(:, :)
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    character(kind=c_char), target :: text(len_trim(name) + 1)
-    text = c_text(name)
-    call this%settle(c_submit_field(this%c_handle(), c_loc(text), association, array_of(values)), stat, errmsg)
+    call lend_field(this, name, association, array_of(values), stat, errmsg)
   end subroutine
 
   ! values(components, n), with room for the result's points or tets.
@@ -70,11 +132,7 @@ contains
     real(real32), intent(inout), target :: values(:, :)
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    character(kind=c_char), target :: text(len_trim(name) + 1)
-    type(tetlod_array) :: dst
-    text = c_text(name)
-    dst = array_of(values)
-    call this%settle(c_fetch_field(this%c_handle(), c_loc(text), dst), stat, errmsg)
+    call fill_field(this, name, array_of(values), stat, errmsg)
   end subroutine
 
   ! Any point field, original(components, points of the run), to simplified(components, points of the result).
@@ -84,9 +142,7 @@ contains
     real(real32), intent(inout), target :: simplified(:, :)
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    type(tetlod_array) :: dst
-    dst = array_of(simplified)
-    call this%settle(c_transfer(this%c_handle(), array_of(original), dst), stat, errmsg)
+    call move_field(this, array_of(original), array_of(simplified), stat, errmsg)
   end subroutine
 
   ! values(n): a further field that steers, its errors weighted by weight (0 to 1e6); borrowed.
@@ -97,9 +153,7 @@ contains
     real(real64), intent(in), target :: values(:)
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    character(kind=c_char), target :: text(len_trim(name) + 1)
-    text = c_text(name)
-    call this%settle(c_submit_steering(this%c_handle(), c_loc(text), weight, array_of(values)), stat, errmsg)
+    call lend_steering(this, name, weight, array_of(values), stat, errmsg)
   end subroutine
 
   ! values(components, n), a tuple a point or a tet by association: TETLOD_POINT_FIELD, TETLOD_CELL_FIELD; borrowed.
@@ -110,9 +164,7 @@ contains
     real(real64), intent(in), target :: values(:, :)
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    character(kind=c_char), target :: text(len_trim(name) + 1)
-    text = c_text(name)
-    call this%settle(c_submit_field(this%c_handle(), c_loc(text), association, array_of(values)), stat, errmsg)
+    call lend_field(this, name, association, array_of(values), stat, errmsg)
   end subroutine
 
   ! values(components, n), with room for the result's points or tets.
@@ -122,11 +174,7 @@ contains
     real(real64), intent(inout), target :: values(:, :)
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    character(kind=c_char), target :: text(len_trim(name) + 1)
-    type(tetlod_array) :: dst
-    text = c_text(name)
-    dst = array_of(values)
-    call this%settle(c_fetch_field(this%c_handle(), c_loc(text), dst), stat, errmsg)
+    call fill_field(this, name, array_of(values), stat, errmsg)
   end subroutine
 
   ! Any point field, original(components, points of the run), to simplified(components, points of the result).
@@ -136,9 +184,7 @@ contains
     real(real64), intent(inout), target :: simplified(:, :)
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    type(tetlod_array) :: dst
-    dst = array_of(simplified)
-    call this%settle(c_transfer(this%c_handle(), array_of(original), dst), stat, errmsg)
+    call move_field(this, array_of(original), array_of(simplified), stat, errmsg)
   end subroutine
 
   ! ids(4, n), counted from index_base (1), and weights(4, n) of each point of the result.
@@ -149,13 +195,7 @@ contains
     integer, intent(in), optional :: index_base
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    type(tetlod_array) :: to_ids, to_weights
-    integer(c_int32_t) :: base
-    base = 1
-    if (present(index_base)) base = int(index_base, c_int32_t)
-    to_ids = array_of(ids)
-    to_weights = array_of(weights)
-    call this%settle(c_fetch_stencil(this%c_handle(), base, to_ids, to_weights), stat, errmsg)
+    call fill_stencil(this, array_of(ids), array_of(weights), index_base, stat, errmsg)
   end subroutine
 
   ! ids(4, n), counted from index_base (1), and weights(4, n) of each point of the result.
@@ -166,13 +206,7 @@ contains
     integer, intent(in), optional :: index_base
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    type(tetlod_array) :: to_ids, to_weights
-    integer(c_int32_t) :: base
-    base = 1
-    if (present(index_base)) base = int(index_base, c_int32_t)
-    to_ids = array_of(ids)
-    to_weights = array_of(weights)
-    call this%settle(c_fetch_stencil(this%c_handle(), base, to_ids, to_weights), stat, errmsg)
+    call fill_stencil(this, array_of(ids), array_of(weights), index_base, stat, errmsg)
   end subroutine
 
   ! values(components, n), a tuple a point or a tet by association: TETLOD_POINT_FIELD, TETLOD_CELL_FIELD; borrowed.
@@ -183,9 +217,7 @@ contains
     integer(int32), intent(in), target :: values(:, :)
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    character(kind=c_char), target :: text(len_trim(name) + 1)
-    text = c_text(name)
-    call this%settle(c_submit_field(this%c_handle(), c_loc(text), association, array_of(values)), stat, errmsg)
+    call lend_field(this, name, association, array_of(values), stat, errmsg)
   end subroutine
 
   ! values(components, n), with room for the result's points or tets.
@@ -195,11 +227,7 @@ contains
     integer(int32), intent(inout), target :: values(:, :)
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    character(kind=c_char), target :: text(len_trim(name) + 1)
-    type(tetlod_array) :: dst
-    text = c_text(name)
-    dst = array_of(values)
-    call this%settle(c_fetch_field(this%c_handle(), c_loc(text), dst), stat, errmsg)
+    call fill_field(this, name, array_of(values), stat, errmsg)
   end subroutine
 
   ! Any point field, original(components, points of the run), to simplified(components, points of the result).
@@ -209,9 +237,7 @@ contains
     integer(int32), intent(inout), target :: simplified(:, :)
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    type(tetlod_array) :: dst
-    dst = array_of(simplified)
-    call this%settle(c_transfer(this%c_handle(), array_of(original), dst), stat, errmsg)
+    call move_field(this, array_of(original), array_of(simplified), stat, errmsg)
   end subroutine
 
   ! values(components, n), a tuple a point or a tet by association: TETLOD_POINT_FIELD, TETLOD_CELL_FIELD; borrowed.
@@ -222,9 +248,7 @@ contains
     integer(int64), intent(in), target :: values(:, :)
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    character(kind=c_char), target :: text(len_trim(name) + 1)
-    text = c_text(name)
-    call this%settle(c_submit_field(this%c_handle(), c_loc(text), association, array_of(values)), stat, errmsg)
+    call lend_field(this, name, association, array_of(values), stat, errmsg)
   end subroutine
 
   ! values(components, n), with room for the result's points or tets.
@@ -234,11 +258,7 @@ contains
     integer(int64), intent(inout), target :: values(:, :)
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    character(kind=c_char), target :: text(len_trim(name) + 1)
-    type(tetlod_array) :: dst
-    text = c_text(name)
-    dst = array_of(values)
-    call this%settle(c_fetch_field(this%c_handle(), c_loc(text), dst), stat, errmsg)
+    call fill_field(this, name, array_of(values), stat, errmsg)
   end subroutine
 
   ! Any point field, original(components, points of the run), to simplified(components, points of the result).
@@ -248,8 +268,6 @@ contains
     integer(int64), intent(inout), target :: simplified(:, :)
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    type(tetlod_array) :: dst
-    dst = array_of(simplified)
-    call this%settle(c_transfer(this%c_handle(), array_of(original), dst), stat, errmsg)
+    call move_field(this, array_of(original), array_of(simplified), stat, errmsg)
   end subroutine
 end module
