@@ -43,6 +43,11 @@ class LowerDeviation : public DecimateSolid {
     return std::size_t(std::find(of.points.begin(), of.points.end(), p) - of.points.begin());
   }
 
+  double volume6(const Tet &t) const {
+    const auto at = [&](int k) { return mesh.points[std::size_t(t[std::size_t(k)])]; };
+    return det(at(0), at(1), at(2), at(3));
+  }
+
   std::vector<std::uint8_t> stays;
   TetMesh mesh{host.memory};
   Array<std::int32_t> origin{&host.memory};
@@ -90,6 +95,47 @@ TEST_F(LowerDeviation, AVertexThatIsLackingComesWhereThereIsRoomForIt) {
   stays.assign(with_peak.points.size(), 1);  // and so the triangle
   EXPECT_NEAR(lower(tets + 2, lacking), 0.1, 1e-15);
   EXPECT_EQ(mesh.points.size(), cube.points.size());
+}
+
+/// It cannot go back all the way, past a vertex inside.
+TEST_F(LowerDeviation, AVertexGoesBackAsFarAsTetsLetIt) {
+  Mesh cube = kuhn_cube(2);
+  const std::size_t outer = vertex_at(cube, {0.5, 0.5, 1}), inner = vertex_at(cube, {0.5, 0.5, 0.5});
+  set_scalars(cube, waves);
+  start_with(cube);
+  constexpr double off = 0.8, inside_is_off = 0.565;  // no part of the way that is tried leads less far
+  const double left = lower(std::int64_t(cube.tets.size()), [&](Mesh &changed) {
+    changed.points[outer].z += off;
+    changed.points[inner].z = 1 + inside_is_off;
+  });
+  EXPECT_LT(left, 0.9 * off);
+  EXPECT_GE(left, inside_is_off);
+  for (const Tet &t : mesh.tets) EXPECT_GT(volume6(t), 0);
+}
+
+/// All vertices are where they should be, but the walls have their other diagonals.
+TEST_F(LowerDeviation, AMiddleThatIsOffComesNearerWhereThereIsRoomForIt) {
+  Mesh cube = kuhn_cube(1);
+  const auto mirrored = [&](std::int32_t v) {
+    const Vec3 p = cube.points[std::size_t(v)];
+    return std::int32_t(vertex_at(cube, {1 - p.x, p.y, p.z}));
+  };
+  std::vector<Tet> others;
+  for (const Tet &t : cube.tets) others.push_back({mirrored(t[1]), mirrored(t[0]), mirrored(t[2]), mirrored(t[3])});
+  cube.points[vertex_at(cube, {1, 1, 1})] = {1.2, 1.3, 1.4};
+  set_scalars(cube, waves);
+  start_with(cube);
+  const auto distance_with = [&](std::size_t more) {
+    lower(std::int64_t(cube.tets.size() + more), [&](Mesh &changed) { changed.tets = others; });
+    Surface lowered(host.memory);
+    boundary_of(mesh);
+    make_surface({mesh.points, mesh.scalars, mesh.tets, 1}, mesh.boundary, host.job, lowered);
+    return largest_deviation(surface, lowered, Samples::between_too, host.job);
+  };
+  const double before = distance_with(0), after = distance_with(20);
+  EXPECT_GT(before, 0.05);
+  EXPECT_LT(after, 0.95 * before);
+  EXPECT_GT(mesh.points.size(), cube.points.size());
 }
 
 TEST_F(LowerDeviation, LowersWhatCollapsesLeft) {

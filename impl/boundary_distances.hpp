@@ -1,0 +1,95 @@
+// How far the boundaries of the original and of a coarse mesh are apart, while the mesh's changes.
+#pragma once
+#include "few.hpp"
+#include "geometry.hpp"
+#include "job.hpp"
+#include "mesh.hpp"
+#include "surface_distance.hpp"
+
+namespace tetlod {
+
+/// At an original vertex, at one of the mesh, or at the middle of a triangle of the mesh.
+struct Apart {
+  enum Where { at_sample, at_vertex, at_middle };
+  double distance;
+  std::size_t at;
+  Where where;
+  bool operator<(const Apart &o) const {
+    if (distance != o.distance) return distance > o.distance;
+    return where != o.where ? where < o.where : at < o.at;
+  }
+};
+
+/// A place for a vertex, with the values of the original's boundary where that is nearest.
+struct Aim {
+  Vec3 point, nearest;
+  Few<double, most_fields> values;
+  std::int32_t origin;  ///< the original vertex that it is, or -1
+  double distance() const { return glm::length(point - nearest); }
+};
+
+/// A triangle of the mesh in space.
+struct Corners {
+  const Vec3 &a, &b, &c;
+  Corners(Span<const Vec3> points, const Triangle &t)
+      : a(points[std::size_t(t[0])]), b(points[std::size_t(t[1])]), c(points[std::size_t(t[2])]) {}
+  Vec3 middle() const { return (a + b + c) / 3.0; }
+  Vec3 at(const Vec3 &weights) const { return weights.x * a + weights.y * b + weights.z * c; }
+  /// Of what is nearest to p.
+  Vec3 weights(const Vec3 &p) const { return nearest_in_triangle(p, a, b, c); }
+};
+
+class BoundaryDistances {
+ public:
+  /// origin: as in lower_deviation.
+  BoundaryDistances(const Surface &original, const TetMesh &mesh, Span<const std::int32_t> origin, Job &job);
+
+  /// The largest, no more than so many, largest first.
+  Array<Apart> worst(std::size_t most) const;
+  bool is_still(const Apart &apart) const;
+  /// From a vertex of either boundary.
+  double largest() const;
+
+  /// The triangle of the mesh that an original vertex is nearest to, or -1.
+  std::int32_t home(std::size_t sample) const { return home_[sample]; }
+  Aim aim_at(std::size_t sample) const;
+  Aim aim_near(const Vec3 &p) const;
+
+  /// Whether all that triangles stand for is within the limit with others in their places, and the middles of these,
+  /// too, or no farther off than theirs.
+  bool suit(Span<const std::int32_t> old, Span<const Triangle> fresh, double limit);
+  /// Those that suited have come: the first ones into the old places, further ones after the last.
+  void take(Span<const std::int32_t> old);
+  /// The mesh's vertex has come there, or comes after the last.
+  void take(std::int32_t v, const Aim &aim);
+
+ private:
+  /// Of a sample: the one of the fresh triangles that is nearest.
+  struct Home {
+    std::int32_t sample;
+    std::size_t triangle;
+    double distance;
+  };
+
+  void measure_samples();
+  void measure_vertices(Span<const std::int32_t> origin);
+  void measure_middles();
+  double value_at(const Triangle &t, const Vec3 &weights, std::size_t field) const;
+  double distance_of_middle(const Triangle &t) const;
+  Home home_among(Span<const Triangle> fresh, std::int32_t sample) const;
+  bool find_homes(Span<const std::int32_t> old, Span<const Triangle> fresh, double limit);
+  bool find_middles(Span<const std::int32_t> old, Span<const Triangle> fresh, double limit);
+  const Array<double> &distances(Apart::Where where) const;
+
+  const Surface &original_;
+  const TetMesh &mesh_;
+  Job &job_;
+  double least_;  // a smaller distance is of rounding
+  TriangleTree to_original_;
+  Array<double> of_sample_, of_vertex_, of_middle_;
+  Array<std::int32_t> first_, next_, home_;  // lists of the original's vertices, by nearest triangle
+  Array<Home> fresh_homes_;                  // of the last that suited
+  Array<double> fresh_middles_;
+};
+
+}  // namespace tetlod
