@@ -27,8 +27,7 @@ constexpr double near_corner = 0.6, far_corner = 0.15;
 
 /// What becomes of the tets and triangles that have some vertices in common.
 struct Change {
-  explicit Change(Memory &memory)
-      : tets(&memory), triangles(&memory), fresh_tets(&memory), fresh_triangles(&memory) {}
+  explicit Change(Memory &memory) : tets(&memory), triangles(&memory), fresh_tets(&memory), fresh_triangles(&memory) {}
   Array<std::int32_t> tets, triangles;
   Array<Tet> fresh_tets;
   Array<Triangle> fresh_triangles;
