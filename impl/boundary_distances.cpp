@@ -11,7 +11,7 @@ namespace {
 constexpr std::int64_t leaf = 4;
 constexpr std::size_t block = 256;
 /// Of the diagonal.
-constexpr double least_distance = 1e-12;
+constexpr double rounding = 1e-12;
 
 }  // namespace
 
@@ -20,7 +20,7 @@ BoundaryDistances::BoundaryDistances(const Surface &original, const TetMesh &mes
     : original_(original),
       mesh_(mesh),
       job_(job),
-      least_(least_distance * box_of(original.points).diagonal()),
+      of_rounding_(rounding * box_of(original.points).diagonal()),
       to_original_(original.points, original.triangles, leaf, job),
       of_sample_(original.points.size(), 0.0, &job.memory),
       of_vertex_(mesh.points.size(), 0.0, &job.memory),
@@ -80,12 +80,13 @@ bool BoundaryDistances::is_still(const Apart &apart) const {
   return distances(apart.where)[apart.at] == apart.distance;
 }
 
-Array<Apart> BoundaryDistances::worst(std::size_t most) const {
+Array<Apart> BoundaryDistances::worst(double least, std::size_t most) const {
+  least = std::max(least, of_rounding_);
   Array<Apart> worst(&job_.memory);
   for (Apart::Where where : {Apart::at_sample, Apart::at_vertex, Apart::at_middle}) {
     const Array<double> &of = distances(where);
     for (std::size_t i = 0; i < of.size(); i++)
-      if (of[i] > least_) worst.push_back({of[i], i, where});
+      if (of[i] > least) worst.push_back({of[i], i, where});
   }
   const std::size_t count = std::min(worst.size(), most);
   std::partial_sort(worst.begin(), worst.begin() + std::ptrdiff_t(count), worst.end());

@@ -44,8 +44,8 @@ class BoundaryDistances {
   /// origin: as in lower_deviation.
   BoundaryDistances(const Surface &original, const TetMesh &mesh, Span<const std::int32_t> origin, Job &job);
 
-  /// The largest, no more than so many, largest first.
-  Array<Apart> worst(std::size_t most) const;
+  /// Those of more than `least`, largest first, but no more than so many.
+  Array<Apart> worst(double least, std::size_t most) const;
   bool is_still(const Apart &apart) const;
   /// From a vertex of either boundary.
   double largest() const;
@@ -84,7 +84,7 @@ class BoundaryDistances {
   const Surface &original_;
   const TetMesh &mesh_;
   Job &job_;
-  double least_;  // a smaller distance is of rounding
+  double of_rounding_;
   TriangleTree to_original_;
   Array<double> of_sample_, of_vertex_, of_middle_;
   Array<std::int32_t> first_, next_, home_;  // lists of the original's vertices, by nearest triangle

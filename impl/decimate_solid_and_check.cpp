@@ -13,6 +13,8 @@ namespace tetlod {
 namespace {
 
 constexpr double most_missed = 0.01;
+/// Of the diagonal: for any use a boundary that is so far off stands out, or lacks a tip.
+constexpr double far_off = 0.02;
 /// Times the tets that are left: before, hardly any collapse takes the boundary through itself, as triangles are small.
 constexpr std::int64_t late = 8;
 
@@ -72,14 +74,16 @@ Array<std::uint8_t> vertices_that_stay(const SolidOptions &options, Memory &memo
 }
 
 /// Takes the boundary back to where it is farthest off, where the outcome is sound.
-bool lower(const OriginalSolid &original, const SolidOptions &options, std::int64_t most, Job &job,
-           CoarseSolid &coarse) {
+bool lower(const OriginalSolid &original, const SolidOptions &options, double least, std::int64_t most, Job &job,
+           CoarseSolid &coarse, std::string &wrong) {
   CoarseSolid lowered(job.memory);
   lowered.mesh = coarse.mesh;
   lowered.origin = coarse.origin;
   const Array<std::uint8_t> stay = vertices_that_stay(options, job.memory);
-  lowered.deviation = lower_deviation(original.surface, stay, most, job, lowered.mesh, lowered.origin);
-  if (!check(original, options, job, lowered).empty()) return false;
+  lowered.deviation = lower_deviation(original.surface, stay, least, most, job, lowered.mesh, lowered.origin);
+  std::string of_lowered = check(original, options, job, lowered);
+  if (!lowered.is_sound) return false;
+  wrong = std::move(of_lowered);
   lowered.reused = coarse.reused;
   coarse = std::move(lowered);
   return true;
@@ -92,10 +96,14 @@ bool is_better(const CoarseSolid &a, const CoarseSolid &b) {
 std::string decimate_and_check(const OriginalSolid &original, const SolidOptions &options, std::int64_t lowered,
                                SolidHistory &history, Job &job, CoarseSolid &coarse) {
   coarse.reused = decimate_solid(original, options, history, job, coarse.mesh, coarse.origin);
-  if (lowered > 0 && lower(original, options, lowered, job, coarse)) return {};
-  const std::string wrong = check(original, options, job, coarse);
-  if (coarse.is_sound)
-    coarse.deviation = largest_deviation(original.surface, coarse.surface, samples_for(options.max_deviation), job);
+  std::string wrong;
+  if (lowered > 0 && lower(original, options, 0, lowered, job, coarse, wrong)) return wrong;
+  wrong = check(original, options, job, coarse);
+  if (!coarse.is_sound) return wrong;
+  coarse.deviation = largest_deviation(original.surface, coarse.surface, samples_for(options.max_deviation), job);
+  const double far = far_off * box_of(original.surface.points).diagonal();
+  if (lowered == 0 && options.max_deviation <= 0 && coarse.deviation > far)
+    lower(original, options, far / 2, std::int64_t(coarse.mesh.tets.size()), job, coarse, wrong);
   return wrong;
 }
 

@@ -19,10 +19,11 @@ struct CoarseSolid {
 };
 
 /// decimate_solid, with care where the boundary else comes to cross itself, which it seldom does: looking for that in
-/// every collapse takes longer. Then, but with lowered = 0, lower_deviation to so many tets at most, where that leaves
-/// the mesh sound. options.touching is found here. Returns what is wrong with the last outcome, or an empty text: a tet
-/// is not positive, tets overlap, the boundary crosses itself or has another topology, solids are nested, or the size
-/// is missed by more than 1 %. `coarse` is the sound one of fewest tets, if any is sound.
+/// every collapse takes longer. Then lower_deviation to so many tets at most, or, with lowered = 0 and no limit to the
+/// deviation, with no more and of what is far off alone, where that leaves the mesh sound. options.touching is found
+/// here. Returns what is wrong with the last outcome, or an empty text: a tet is not positive, tets overlap, the
+/// boundary crosses itself or has another topology, solids are nested, or the size is missed by more than 1 %. `coarse`
+/// is the sound one of fewest tets, if any is sound.
 std::string decimate_solid_and_check(const OriginalSolid &original, SolidOptions options, std::int64_t lowered,
                                      SolidHistory &history, Job &job, CoarseSolid &coarse);
 

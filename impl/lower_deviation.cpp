@@ -19,7 +19,7 @@ constexpr double most_left = 0.9;
 /// Of the flattest tet's shape before: no tet gets flatter.
 constexpr double flattest_part = 0.2;
 /// Of the original's volume, that the mesh may lack or have too much.
-constexpr double most_volume = 0.0099;
+constexpr double most_volume = 0.005;
 /// Of the way to where it would be none, what is tried.
 constexpr double parts_of_way[] = {1, 0.6, 0.3};
 /// A corner of more weight than that moves; one of less is no end of what is divided.
@@ -50,7 +50,8 @@ class DeviationLowering {
         volume6_(volume6_of(original.points, original.triangles)),
         excess6_(volume6_of(mesh.points, mesh.boundary) - volume6_) {}
 
-  double run(std::int64_t most) {
+  double run(double least, std::int64_t most) {
+    least_ = least;
     most_ = std::size_t(most);
     for (int sweep = 0; sweep < sweeps && serve_worst() > 0; sweep++) {
     }
@@ -72,7 +73,7 @@ class DeviationLowering {
   std::int64_t serve_worst() {
     constexpr std::size_t moves = 16;
     const std::size_t room = most_ - std::min(most_, mesh_.tets.size());
-    const Array<Apart> worst = distances_.worst(moves + room / 2);
+    const Array<Apart> worst = distances_.worst(least_, moves + room / 2);
     if (worst.empty()) return 0;
     const StarLists tets(Span<const Tet>(mesh_.tets), mesh_.points.size(), job_),
         triangles(Span<const Triangle>(mesh_.boundary), mesh_.points.size(), job_);
@@ -244,7 +245,8 @@ class DeviationLowering {
   TetMesh &mesh_;
   Array<std::int32_t> &origin_;
   BoundaryDistances distances_;
-  std::size_t most_ = 0;
+  double least_ = 0;                                        // distance that is served
+  std::size_t most_ = 0;                                    // tets
   const StarLists *tets_ = nullptr, *triangles_ = nullptr;  // as the sweep began
   Array<std::uint8_t> touched_;                             // vertices whose tets changed since
   Change change_;
@@ -253,9 +255,9 @@ class DeviationLowering {
 
 }  // namespace
 
-double lower_deviation(const Surface &original, Span<const std::uint8_t> stays, std::int64_t most, Job &job,
-                       TetMesh &mesh, Array<std::int32_t> &origin) {
-  return DeviationLowering(original, stays, job, mesh, origin).run(most);
+double lower_deviation(const Surface &original, Span<const std::uint8_t> stays, double least, std::int64_t most,
+                       Job &job, TetMesh &mesh, Array<std::int32_t> &origin) {
+  return DeviationLowering(original, stays, job, mesh, origin).run(least, most);
 }
 
 }  // namespace tetlod
