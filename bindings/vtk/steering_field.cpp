@@ -38,7 +38,8 @@ vtkDataArray *first_scalar(vtkPointData &data) {
   for (int i = 0; i < data.GetNumberOfArrays(); i++) {
     if (is_scalar(data.GetArray(i))) return data.GetArray(i);
   }
-  throw std::runtime_error("no field of one number a point; " + what_there_is(data));
+  throw std::runtime_error("no field of one number a point, which a calculator makes of a vector; " +
+                           what_there_is(data));
 }
 
 }  // namespace
