@@ -123,6 +123,7 @@ Aim BoundaryDistances::aim_at(std::size_t sample) const {
 
 Aim BoundaryDistances::aim_near(const Vec3 &p) const {
   const NearestPoint nearest = to_original_.nearest(p);
+  if (nearest.triangle < 0) return {p, Vec3(std::numeric_limits<double>::infinity()), {}, -1};
   const Triangle &t = original_.triangles[std::size_t(nearest.triangle)];
   Aim aim{p, Corners(original_.points, t).at(nearest.weights), {}, -1};
   for (std::size_t field = 0; field < original_.fields; field++) aim.values.push(value_at(t, nearest.weights, field));

@@ -65,11 +65,13 @@ std::string check(const OriginalSolid &original, const SolidOptions &options, Jo
   return wrong;
 }
 
-/// Of original vertices: those that are kept, and where the solid touches itself.
+/// Of original vertices: those that are kept or restored, and where the solid touches itself.
 Array<std::uint8_t> vertices_that_stay(const SolidOptions &options, Memory &memory) {
-  Array<std::uint8_t> stay(options.kept.begin(), options.kept.end(), &memory);
-  if (stay.empty()) stay.assign(options.touching.begin(), options.touching.end());
-  for (std::size_t v = 0; v < options.touching.size(); v++) stay[v] |= options.touching[v];
+  Array<std::uint8_t> stay(&memory);
+  for (const Span<const std::uint8_t> &some : {options.kept, options.restored, options.touching}) {
+    if (stay.size() < some.size()) stay.resize(some.size(), 0);
+    for (std::size_t v = 0; v < some.size(); v++) stay[v] |= some[v];
+  }
   return stay;
 }
 

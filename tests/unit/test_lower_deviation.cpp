@@ -189,6 +189,21 @@ TEST_F(LowerDeviation, LowersWhatStandsOutInAnyCase) {
   EXPECT_LT(were_far, 6);
 }
 
+/// Vertices that a bound has restored, as those that the host keeps.
+TEST_F(LowerDeviation, LeavesRestoredVerticesWhereTheyAre) {
+  start_with(wavy_cube(12));
+  std::vector<std::uint8_t> restored(original.points.size(), 0);
+  for (std::size_t s = 0; s < surface.points.size(); s += 23) restored[std::size_t(surface.origin[s])] = 1;
+  options.restored = {restored.data(), restored.size()};
+  CoarseSolid coarse(host.memory);
+  decimate(0.01, host, coarse);
+  ASSERT_TRUE(coarse.is_sound) << failure;
+  for (std::size_t v = 0; v < restored.size(); v++) {
+    const auto left = std::count(coarse.origin.begin(), coarse.origin.end(), std::int32_t(v));
+    EXPECT_TRUE(!restored[v] || left == 1) << v;
+  }
+}
+
 /// Bumps on one wall of a cube are as large as dents in the other, which stay.
 TEST_F(LowerDeviation, KeepsTheVolume) {
   constexpr int cells = 6;
