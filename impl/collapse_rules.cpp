@@ -14,6 +14,15 @@ bool cos_below(const Vec3 &a, const Vec3 &b, double limit) {
   return glm::dot(a, b) < limit * std::sqrt(length2(a) * length2(b));
 }
 
+/// Of the angles between normals of neighbours, which may be those of the spokes or of what they replace.
+double least_cos(const Star &star, Span<const Vec3> normal) {
+  const auto cos = [](const Vec3 &a, const Vec3 &b) { return glm::dot(a, b) / std::sqrt(length2(a) * length2(b)); };
+  double least = 1;
+  for (std::size_t i = 0; i < star.size(); i++)
+    least = std::min({least, cos(normal[i], normal[star.after(i)]), cos(normal[i], star.outer_normal[i])});
+  return least;
+}
+
 }  // namespace
 
 void Star::clear() {
@@ -62,6 +71,10 @@ bool folds(const Star &star) {
         cos_below(star.normal[i], star.outer_normal[i], least_cos_of_fold))
       return true;
   return false;
+}
+
+bool sharpens(const Star &star, double kept) {
+  return folds(star) && 1 + least_cos(star, star.normal) < kept * kept * (1 + least_cos(star, star.old_normal));
 }
 
 bool makes_sliver(const Star &star, double kept) {

@@ -49,6 +49,8 @@ bool pinches_ring(const Star &star);
 bool turns_too_far(const Star &star);
 /// Two neighbouring triangles become a fold: the surface nearly lies back on itself.
 bool folds(const Star &star);
+/// It folds, and the sine of half the sharpest angle is less than this part of what it was.
+bool sharpens(const Star &star, double kept);
 /// A triangle gets worse than a sliver, and keeps less than this part of the quality of the worst that there was.
 bool makes_sliver(const Star &star, double kept = 1);
 

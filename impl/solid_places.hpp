@@ -27,9 +27,13 @@ class SolidPlaces {
         kept_of_sliver_(holds_bound ? 1 : kept_of_sliver[0]),
         volume_of_collapse_(volume_to_lose * mesh.measures.volume / double(boundary_vertices)) {}
 
-  /// Where nothing is admissible any more: how often rules may give way then, and what they ask for when they did.
+  /// Where nothing is admissible any more: how often rules may give way then, and what they ask for when they did. The
+  /// rim of a flat body is sharper than any fold may get else.
   static constexpr int most_ways = 2;
-  void give_way(int times) { kept_of_sliver_ = kept_of_sliver[times]; }
+  void give_way(int times) {
+    kept_of_sliver_ = kept_of_sliver[times];
+    gives_way_ = times > 0;
+  }
 
   /// An edge that was found at v collapses to the best place near it, or, where that is not admissible, to the best
   /// along it, at t.
@@ -92,11 +96,12 @@ class SolidPlaces {
   bool suits_boundary(SolidCollapse<m> &collapse) const {
     Star &star = collapse.star;
     return look_around_on_boundary(mesh_, collapse.edge, point_of(collapse.place), star) && !turns_too_far(star) &&
-           !folds(star) && !makes_sliver(star, kept_of_sliver_);
+           !(gives_way_ ? sharpens(star, kept_of_sliver_) : folds(star)) && !makes_sliver(star, kept_of_sliver_);
   }
 
   const SolidMesh<m> &mesh_;
   double kept_of_flat_, kept_of_sliver_, volume_of_collapse_;
+  bool gives_way_ = false;
 };
 
 }  // namespace tetlod
