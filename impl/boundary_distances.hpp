@@ -30,7 +30,7 @@ struct Aim {
 
 /// A triangle of the mesh in space.
 struct Corners {
-  const Vec3 &a, &b, &c;
+  Vec3 a, b, c;  ///< copies, as points may be added meanwhile
   Corners(Span<const Vec3> points, const Triangle &t)
       : a(points[std::size_t(t[0])]), b(points[std::size_t(t[1])]), c(points[std::size_t(t[2])]) {}
   Vec3 middle() const { return (a + b + c) / 3.0; }

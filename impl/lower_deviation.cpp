@@ -202,7 +202,7 @@ class DeviationLowering {
     find_with(vertices, *triangles_, mesh_.boundary, change_.triangles);
     replace_each(change_.tets, vertices, by, mesh_.tets, change_.fresh_tets);
     replace_each(change_.triangles, vertices, by, mesh_.boundary, change_.fresh_triangles);
-    change_.old_volume6 = change_.fresh_volume6 = 0;
+    change_.old_volume6 = 0;
     change_.least_shape2 = std::numeric_limits<double>::infinity();
     for (std::int32_t t : change_.tets) {
       change_.old_volume6 += volume6_of(mesh_.tets[std::size_t(t)]);
@@ -224,6 +224,7 @@ class DeviationLowering {
   }
 
   bool keeps_volume() {
+    change_.fresh_volume6 = 0;
     for (const Tet &t : change_.fresh_tets) change_.fresh_volume6 += volume6_of(t);
     const double excess6 = excess6_ + change_.fresh_volume6 - change_.old_volume6;
     return std::abs(excess6) <= std::max(std::abs(excess6_), most_volume * volume6_);

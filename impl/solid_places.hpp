@@ -30,10 +30,7 @@ class SolidPlaces {
   /// Where nothing is admissible any more: how often rules may give way then, and what they ask for when they did. The
   /// rim of a flat body is sharper than any fold may get else.
   static constexpr int most_ways = 2;
-  void give_way(int times) {
-    kept_of_sliver_ = kept_of_sliver[times];
-    gives_way_ = times > 0;
-  }
+  void give_way(int times) { kept_of_sliver_ = kept_of_sliver[times]; }
 
   /// An edge that was found at v collapses to the best place near it, or, where that is not admissible, to the best
   /// along it, at t.
@@ -96,12 +93,16 @@ class SolidPlaces {
   bool suits_boundary(SolidCollapse<m> &collapse) const {
     Star &star = collapse.star;
     return look_around_on_boundary(mesh_, collapse.edge, point_of(collapse.place), star) && !turns_too_far(star) &&
-           !(gives_way_ ? sharpens(star, kept_of_sliver_) : folds(star)) && !makes_sliver(star, kept_of_sliver_);
+           !makes_fold(star) && !makes_sliver(star, kept_of_sliver_);
+  }
+
+  bool makes_fold(const Star &star) const {
+    const bool gave_way = kept_of_sliver_ < kept_of_sliver[0];
+    return gave_way ? sharpens(star, kept_of_sliver_) : folds(star);
   }
 
   const SolidMesh<m> &mesh_;
   double kept_of_flat_, kept_of_sliver_, volume_of_collapse_;
-  bool gives_way_ = false;
 };
 
 }  // namespace tetlod
