@@ -133,7 +133,8 @@ class SolidDecimator {
   }
 
   bool give_way() {
-    if (options_.holds_bound || progress_.gave_way == places_.most_ways) return false;
+    const int most = options_.gives_way ? places_.most_of_all : places_.most_for_slivers;
+    if (options_.holds_bound || progress_.gave_way == most) return false;
     places_.give_way(++progress_.gave_way);
     look_again();
     return true;
@@ -259,13 +260,13 @@ class SolidDecimator {
     blocks_ = SolidBlocks(left_.size(), job_.memory);
   }
 
-  /// Unless it is of this target alone, where only new values may begin, kept already, or would take memory that the
-  /// run does not need without it. Where new values may begin must not depend on the peak, which depends on the
-  /// threads. While vertices are removed the way is that to all smaller targets, too: such states take the place of
-  /// others.
+  /// Unless it is of this target alone, where only new values may begin, of sharp folds, kept already, or would take
+  /// memory that the run does not need without it. Where new values may begin must not depend on the peak, which
+  /// depends on the threads. While vertices are removed the way is that to all smaller targets, too: such states take
+  /// the place of others.
   void keep_state(SolidRemains<m> &remains) {
     const bool of_this_target = progress_.largest_target < options_.tets, follows = progress_.follows();
-    if (!states_ || (of_this_target && !follows)) return;
+    if (!states_ || (of_this_target && !follows) || progress_.gave_way > places_.most_for_slivers) return;
     const auto last_is_no_finer = [&] {
       return !states_->empty() && states_->back().remains.tets.size() <= remains.tets.size();
     };

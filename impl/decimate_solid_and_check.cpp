@@ -91,10 +91,6 @@ bool lower(const OriginalSolid &original, const SolidOptions &options, double le
   return true;
 }
 
-bool is_better(const CoarseSolid &a, const CoarseSolid &b) {
-  return a.is_sound && (!b.is_sound || a.mesh.tets.size() < b.mesh.tets.size());
-}
-
 std::string decimate_and_check(const OriginalSolid &original, const SolidOptions &options, std::int64_t lowered,
                                SolidHistory &history, Job &job, CoarseSolid &coarse) {
   coarse.reused = decimate_solid(original, options, history, job, coarse.mesh, coarse.origin);
@@ -110,6 +106,10 @@ std::string decimate_and_check(const OriginalSolid &original, const SolidOptions
 }
 
 }  // namespace
+
+bool is_better(const CoarseSolid &a, const CoarseSolid &b) {
+  return a.is_sound && (!b.is_sound || a.mesh.tets.size() < b.mesh.tets.size());
+}
 
 std::string decimate_solid_and_check(const OriginalSolid &original, SolidOptions options, std::int64_t lowered,
                                      SolidHistory &history, Job &job, CoarseSolid &coarse) {

@@ -27,4 +27,7 @@ struct CoarseSolid {
 std::string decimate_solid_and_check(const OriginalSolid &original, SolidOptions options, std::int64_t lowered,
                                      SolidHistory &history, Job &job, CoarseSolid &coarse);
 
+/// Which is sound, or, as both are, the smaller one.
+bool is_better(const CoarseSolid &a, const CoarseSolid &b);
+
 }  // namespace tetlod

@@ -104,16 +104,17 @@ class Pipeline {
            std::int64_t(mesh_.tets.size()) > report_.tets_in;
   }
 
-  /// By collapses, or from samples; where the one way leads to no sound mesh of the size, by the other, and the smaller
-  /// mesh is taken. Returns whether it is by collapses.
+  /// By collapses, or from samples; where the one way leads to no sound mesh of the size, by the other, at last by
+  /// collapses that fold the boundary more, and the smallest mesh is taken. Returns whether it is by collapses.
   bool coarsen(Worker &worker) {
     CoarseSolid coarse(job_.memory);
     mesh_.tets.clear();
     report_.reused_collapses = 0;
     if (collapses_edges(options_, report_)) {
-      if (!collapse_edges(coarse) && options_.remesh) remesh_to_target(worker);
+      const bool reached = collapse_edges(false, coarse) || (options_.remesh && remesh_to_target(worker));
+      if (!reached && coarse.is_sound && options_.max_error == 0) collapse_edges(true, coarse);
     } else if (!remesh_to_target(worker) && options_.clean_edges == 0) {
-      collapse_edges(coarse);
+      collapse_edges(true, coarse);
     }
     if (!coarse.is_sound && mesh_.tets.empty()) {
       if (!options_.remesh)  // who remeshes has looked at that
@@ -139,20 +140,21 @@ class Pipeline {
     return double(mesh_.tets.size()) <= most_excess * double(budget_.tets);
   }
 
-  /// To the budget, or to what suits the bound. False: that way leads to no sound mesh of the size.
-  bool collapse_edges(CoarseSolid &coarse) {
+  /// To the budget, or to what suits the bound, where that betters `best`. False: to no sound mesh of the size.
+  bool collapse_edges(bool gives_way, CoarseSolid &best) {
     describe_boundary(prepared_.topology(job_), report_);
     const StageTimer timer(Stage::decimate, job_, report_);
     const CollapseSizes sizes = collapse_sizes(budget_, options_, report_);
-    const bool holds_bound = options_.max_error > 0;
-    const bool hasty = is_hasty(options_, report_);
-    SolidHistory &history = prepared_.history(holds_bound, hasty, options_.warm_start > 0, job_);
-    SolidOptions options{sizes.tets,  budget_.enough,      budget_.dearest, deviation_limit(), hasty,
-                         holds_bound, options_.warm_start, kept_.by_host(), kept_.restored(),  {}};
+    const bool bound = options_.max_error > 0, hasty = is_hasty(options_, report_);
+    SolidOptions options{sizes.tets, budget_.enough,      budget_.dearest, deviation_limit(), hasty, bound,
+                         gives_way,  options_.warm_start, kept_.by_host(), kept_.restored(),  {}};
+    SolidHistory &history = prepared_.history(bound, hasty, options_.warm_start > 0, job_);
     options.later = job_.memory.in_use() + bytes_to_refine(original_.view, sizes.tets, rounds_of(options_, report_));
     options.one_of_many = report_.reused_tets > 0 && history.is_repeated();
     const OriginalSolid original{original_.view, boundary_, prepared_.surface(job_), prepared_.topology(job_)};
+    CoarseSolid coarse(job_.memory);
     const std::string wrong = decimate_solid_and_check(original, options, sizes.lowered, history, job_, coarse);
+    if (is_better(coarse, best)) best = std::move(coarse);
     if (wrong.empty()) return true;
     const std::string failure = "edges collapsed in vain: " + wrong;
     if (job_.log) job_.log(1, failure.c_str());

@@ -24,13 +24,12 @@ class SolidPlaces {
   SolidPlaces(const SolidMesh<m> &mesh, bool holds_bound, std::size_t boundary_vertices)
       : mesh_(mesh),
         kept_of_flat_(holds_bound ? 1 : kept_of_flat),
-        kept_of_sliver_(holds_bound ? 1 : kept_of_sliver[0]),
-        volume_of_collapse_(volume_to_lose * mesh.measures.volume / double(boundary_vertices)) {}
+        volume_of_collapse_(volume_to_lose * mesh.measures.volume / double(boundary_vertices)),
+        rules_(holds_bound ? of_bound : rules[0]) {}
 
-  /// Where nothing is admissible any more: how often rules may give way then, and what they ask for when they did. The
-  /// rim of a flat body is sharper than any fold may get else.
-  static constexpr int most_ways = 2;
-  void give_way(int times) { kept_of_sliver_ = kept_of_sliver[times]; }
+  /// Where nothing is admissible any more: how often rules may give way then, those of slivers alone and all.
+  static constexpr int most_for_slivers = 2, most_of_all = 5;
+  void give_way(int times) { rules_ = rules[times]; }
 
   /// An edge that was found at v collapses to the best place near it, or, where that is not admissible, to the best
   /// along it, at t.
@@ -52,10 +51,20 @@ class SolidPlaces {
  private:
   /// Of the volume, that the boundary may lose.
   static constexpr double volume_to_lose = 0.01;
-  /// What tets that are flat have to keep of their shape, and slivers of the boundary of their quality. In a graded
-  /// mesh most tets are flat; on walls that are stretched all triangles are slivers, as good as each other but for a
-  /// little. Nothing could go there without making some worse.
-  static constexpr double kept_of_flat = 0.7, kept_of_sliver[1 + most_ways] = {0.999, 0.7, 0.4};
+  /// What tets that are flat have to keep of their shape. In a graded mesh most are; nothing could go there without
+  /// making some worse.
+  static constexpr double kept_of_flat = 0.7;
+  /// Of the boundary. On walls that are stretched all triangles are slivers, as good as each other but for a little;
+  /// the rim of a flat body is sharper than any fold may get else, and its narrow faces turn when it gets still
+  /// flatter.
+  struct Rules {
+    double kept_of_sliver;  ///< what slivers have to keep of their quality
+    double kept_of_fold;    ///< and folds, how far they are open; 0: none may become sharp
+    bool may_turn;          ///< whether triangles may turn too far
+  };
+  static constexpr Rules of_bound{1, 0, false};
+  static constexpr Rules rules[1 + most_of_all] = {{0.999, 0, false}, {0.7, 0, false},   {0.4, 0, false},
+                                                   {0.4, 0.7, false}, {0.4, 0.4, false}, {0.4, 0.4, true}};
   /// A best place further off than this part of the edge is none.
   static constexpr double longest_step = 0.5;
 
@@ -92,17 +101,17 @@ class SolidPlaces {
 
   bool suits_boundary(SolidCollapse<m> &collapse) const {
     Star &star = collapse.star;
-    return look_around_on_boundary(mesh_, collapse.edge, point_of(collapse.place), star) && !turns_too_far(star) &&
-           !makes_fold(star) && !makes_sliver(star, kept_of_sliver_);
+    return look_around_on_boundary(mesh_, collapse.edge, point_of(collapse.place), star) &&
+           (rules_.may_turn || !turns_too_far(star)) && !makes_fold(star) && !makes_sliver(star, rules_.kept_of_sliver);
   }
 
   bool makes_fold(const Star &star) const {
-    const bool gave_way = kept_of_sliver_ < kept_of_sliver[0];
-    return gave_way ? sharpens(star, kept_of_sliver_) : folds(star);
+    return rules_.kept_of_fold > 0 ? sharpens(star, rules_.kept_of_fold) : folds(star);
   }
 
   const SolidMesh<m> &mesh_;
-  double kept_of_flat_, kept_of_sliver_, volume_of_collapse_;
+  double kept_of_flat_, volume_of_collapse_;
+  Rules rules_;
 };
 
 }  // namespace tetlod

@@ -11,6 +11,17 @@ namespace tetlod::test {
 
 inline double waves(const Vec3 &p) { return std::sin(6 * p.x) * std::cos(5 * p.y) + p.z * p.z; }
 
+/// Its rim is sharper than a fold may get.
+inline Mesh flat_body() {
+  Mesh flat = kuhn_cube(8);
+  transform(flat, [](const Vec3 &p) {
+    const Vec3 bent = p + 0.05 * Vec3(std::sin(9 * p.y), std::sin(8 * p.z), std::sin(7 * p.x));
+    const Vec3 across = bent + 0.7 * Vec3(-bent.y, bent.x, 0);
+    return Vec3(across.x - 0.6 * bent.z, across.y + 0.5 * bent.z, 0.002 * (bent.x + bent.y + bent.z));
+  });
+  return flat;
+}
+
 class DecimateSolid : public testing::Test {
  protected:
   Host host;

@@ -1,6 +1,7 @@
 // New values on what collapses of earlier ones left: the quadrics are those of the original, and the result is near.
 #include "decimate_solid_fixture.hpp"
 #include "renew_quadrics.hpp"
+#include "solid_places.hpp"
 #include "tet_frame.hpp"
 
 namespace tetlod {
@@ -86,6 +87,20 @@ TEST_F(WarmStart, QuadricsAreThoseOfTheOriginal) {
     }
     EXPECT_NEAR(error, sum, 1e-9 * (1 + sum));
   }
+}
+
+/// Those of other values may begin there, and rules do not hold there any more.
+TEST_F(WarmStart, KeepsNoStateOfSharpFolds) {
+  Mesh flat = flat_body();
+  set_scalars(flat, waves);
+  start_with(flat);
+  options.gives_way = true;
+  SolidHistory history(host.memory);
+  CoarseSolid coarse(host.memory);
+  ASSERT_TRUE(decimate(0.03, host, history, coarse)) << failure;
+  ASSERT_FALSE(history.states<1>(host.memory).empty());
+  for (const SolidState<1> &state : history.states<1>(host.memory))
+    EXPECT_LE(state.progress.gave_way, SolidPlaces<1>::most_for_slivers);
 }
 
 TEST_F(WarmStart, BeginsWhereASlowFrontLeftTheSolid) {
