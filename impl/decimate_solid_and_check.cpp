@@ -33,7 +33,8 @@ bool same_topology(const SurfaceTopology &a, const SurfaceTopology &b) {
          a.nonmanifold_points == b.nonmanifold_points;
 }
 
-/// Closed, of the same topology, it crosses itself nowhere, and none of its components lies in another's material.
+/// What is wrong, where it is not closed, of the same topology, crosses itself nowhere, and none of its components lies
+/// in another's material.
 std::string check_surface_of(const OriginalSolid &original, Job &job, CoarseSolid &coarse) {
   const TetMesh &mesh = coarse.mesh;
   make_surface({mesh.points, mesh.scalars, mesh.tets, original.mesh.fields}, mesh.boundary, job, coarse.surface);
@@ -54,15 +55,14 @@ bool misses_size(const SolidOptions &options, const TetMesh &mesh) {
   return options.enough == 0 && double(mesh.tets.size()) > (1 + most_missed) * double(options.tets);
 }
 
-std::string check(const OriginalSolid &original, const SolidOptions &options, Job &job, CoarseSolid &coarse) {
+void check(const OriginalSolid &original, const SolidOptions &options, Job &job, CoarseSolid &coarse) {
   TetMesh &mesh = coarse.mesh;
-  std::string wrong = make_all_positive(mesh.points, {mesh.tets.data(), mesh.tets.size()}, 1, job);
+  std::string &wrong = coarse.wrong = make_all_positive(mesh.points, {mesh.tets.data(), mesh.tets.size()}, 1, job);
   if (wrong.empty()) wrong = check_volume(mesh.points, mesh.tets, mesh.boundary, 1, job);
   if (wrong.empty()) wrong = check_surface_of(original, job, coarse);
   coarse.is_sound = wrong.empty();
   if (coarse.is_sound && misses_size(options, mesh))
-    return text("no edge is left to collapse at %zu tets", mesh.tets.size());
-  return wrong;
+    wrong = text("no edge is left to collapse at %zu tets", mesh.tets.size());
 }
 
 /// Of original vertices: those that are kept or restored, and where the solid touches itself.
@@ -77,62 +77,56 @@ Array<std::uint8_t> vertices_that_stay(const SolidOptions &options, Memory &memo
 
 /// Takes the boundary back to where it is farthest off, where the outcome is sound.
 bool lower(const OriginalSolid &original, const SolidOptions &options, double least, std::int64_t most, Job &job,
-           CoarseSolid &coarse, std::string &wrong) {
+           CoarseSolid &coarse) {
   CoarseSolid lowered(job.memory);
   lowered.mesh = coarse.mesh;
   lowered.origin = coarse.origin;
+  lowered.reused = coarse.reused;
   const Array<std::uint8_t> stay = vertices_that_stay(options, job.memory);
   lowered.deviation = lower_deviation(original.surface, stay, least, most, job, lowered.mesh, lowered.origin);
-  std::string of_lowered = check(original, options, job, lowered);
-  if (!lowered.is_sound) return false;
-  wrong = std::move(of_lowered);
-  lowered.reused = coarse.reused;
-  coarse = std::move(lowered);
-  return true;
+  check(original, options, job, lowered);
+  if (lowered.is_sound) coarse = std::move(lowered);
+  return coarse.is_sound;
 }
 
-std::string decimate_and_check(const OriginalSolid &original, const SolidOptions &options, std::int64_t lowered,
-                               SolidHistory &history, Job &job, CoarseSolid &coarse) {
+CoarseSolid decimate_and_check(const OriginalSolid &original, const SolidOptions &options, std::int64_t lowered,
+                               SolidHistory &history, Job &job) {
+  CoarseSolid coarse(job.memory);
   coarse.reused = decimate_solid(original, options, history, job, coarse.mesh, coarse.origin);
-  std::string wrong;
-  if (lowered > 0 && lower(original, options, 0, lowered, job, coarse, wrong)) return wrong;
-  wrong = check(original, options, job, coarse);
-  if (!coarse.is_sound) return wrong;
+  if (lowered > 0 && lower(original, options, 0, lowered, job, coarse)) return coarse;
+  check(original, options, job, coarse);
+  if (!coarse.is_sound) return coarse;
   coarse.deviation = largest_deviation(original.surface, coarse.surface, samples_for(options.max_deviation), job);
   const double far = far_off * box_of(original.surface.points).diagonal();
   if (lowered == 0 && options.max_deviation <= 0 && coarse.deviation > far)
-    lower(original, options, far / 2, std::int64_t(coarse.mesh.tets.size()), job, coarse, wrong);
-  return wrong;
+    lower(original, options, far / 2, std::int64_t(coarse.mesh.tets.size()), job, coarse);
+  return coarse;
 }
 
 }  // namespace
 
 bool is_better(const CoarseSolid &a, const CoarseSolid &b) {
-  return a.is_sound && (!b.is_sound || a.mesh.tets.size() < b.mesh.tets.size());
+  return !b.is_sound || (a.is_sound && a.mesh.tets.size() < b.mesh.tets.size());
 }
 
-std::string decimate_solid_and_check(const OriginalSolid &original, SolidOptions options, std::int64_t lowered,
-                                     SolidHistory &history, Job &job, CoarseSolid &coarse) {
+CoarseSolid decimate_solid_and_check(const OriginalSolid &original, SolidOptions options, std::int64_t lowered,
+                                     SolidHistory &history, Job &job) {
   const Array<std::uint8_t> touching = touching_vertices(original, job.memory);
   options.touching = touching;
-  const auto decimate = [&](CoarseSolid &out) {
-    return decimate_and_check(original, options, lowered, history, job, out);
-  };
-  std::string wrong = decimate(coarse);
-  const std::int64_t reused = coarse.reused;  // of other runs
-  const auto all = std::int64_t(original.mesh.tets.size()), few = late * std::int64_t(coarse.mesh.tets.size());
-  const bool can_reach_size = !misses_size(options, coarse.mesh);
-  bool again = coarse.wants_care;
+  CoarseSolid best = decimate_and_check(original, options, lowered, history, job);
+  const std::int64_t reused = best.reused;  // of other runs
+  const auto all = std::int64_t(original.mesh.tets.size()), few = late * std::int64_t(best.mesh.tets.size());
+  const bool can_reach_size = !misses_size(options, best.mesh);
+  bool again = best.wants_care;
   for (options.careful_from = std::min(few, all); again; options.careful_from = all) {
-    if (job.log) job.log(1, ("edges collapse again, with more care: " + wrong).c_str());
-    if (!coarse.is_sound) coarse = CoarseSolid(job.memory);
-    CoarseSolid careful(job.memory);
-    wrong = decimate(careful);
-    again = !wrong.empty() && options.careful_from < all && (can_reach_size || !careful.is_sound);
-    if (is_better(careful, coarse)) coarse = std::move(careful);
+    if (job.log) job.log(1, ("edges collapse again, with more care: " + best.wrong).c_str());
+    if (!best.is_sound) best = CoarseSolid(job.memory);
+    CoarseSolid careful = decimate_and_check(original, options, lowered, history, job);
+    again = !careful.wrong.empty() && options.careful_from < all && (can_reach_size || !careful.is_sound);
+    if (is_better(careful, best)) best = std::move(careful);
   }
-  coarse.reused = reused;
-  return wrong;
+  best.reused = reused;
+  return best;
 }
 
 }  // namespace tetlod

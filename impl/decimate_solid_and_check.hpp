@@ -13,6 +13,7 @@ struct CoarseSolid {
   Surface surface;             ///< the boundary with points of its own
   SurfaceTopology topology;    ///< of that
   std::int64_t reused = 0;     ///< collapses that decimate_solid's history saved
+  std::string wrong;           ///< with it; empty: nothing
   bool is_sound = false;       ///< it has but the wrong size, if anything is wrong
   bool wants_care = false;     ///< its boundary is wrong, which care may avoid
   double deviation = 0;        ///< between the boundaries, at samples_for() the limit
@@ -21,13 +22,12 @@ struct CoarseSolid {
 /// decimate_solid, with care where the boundary else comes to cross itself, which it seldom does: looking for that in
 /// every collapse takes longer. Then lower_deviation to so many tets at most, or, with lowered = 0 and no limit to the
 /// deviation, with no more and of what is far off alone, where that leaves the mesh sound. options.touching is found
-/// here. Returns what is wrong with the last outcome, or an empty text: a tet is not positive, tets overlap, the
-/// boundary crosses itself or has another topology, solids are nested, or the size is missed by more than 1 %. `coarse`
-/// is the sound one of fewest tets, if any is sound.
-std::string decimate_solid_and_check(const OriginalSolid &original, SolidOptions options, std::int64_t lowered,
-                                     SolidHistory &history, Job &job, CoarseSolid &coarse);
+/// here. The sound outcome of fewest tets, else the last. What may be wrong: a tet is not positive, tets overlap, the
+/// boundary crosses itself or has another topology, solids are nested, or the size is missed by more than 1 %.
+CoarseSolid decimate_solid_and_check(const OriginalSolid &original, SolidOptions options, std::int64_t lowered,
+                                     SolidHistory &history, Job &job);
 
-/// Which is sound, or, as both are, the smaller one.
+/// A sound one, with fewer tets than another sound one.
 bool is_better(const CoarseSolid &a, const CoarseSolid &b);
 
 }  // namespace tetlod

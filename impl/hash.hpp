@@ -1,4 +1,4 @@
-// A number for the bytes of a result: the same result, the same number. And numbers that look random.
+// A number for the bytes of a result: the same result, the same number.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -38,13 +38,6 @@ inline std::uint64_t hash_of(const TetMesh &mesh) {
   hash.add(mesh.scalars);
   hash.add(mesh.tets);
   return hash.value();
-}
-
-/// As if at random, for each key; the finalizer of SplitMix64 (Steele, Lea and Flood 2014).
-inline std::uint64_t scrambled(std::uint64_t key) {
-  key = (key ^ (key >> 30)) * 0xbf58476d1ce4e5b9u;
-  key = (key ^ (key >> 27)) * 0x94d049bb133111ebu;
-  return key ^ (key >> 31);
 }
 
 }  // namespace tetlod

@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "geometry.hpp"
-#include "hash.hpp"
 #include "kd_tree.hpp"
 #include "prepare.hpp"
+#include "random_place.hpp"
 #include "whole_arrays.hpp"
 
 namespace tetlod {
@@ -99,20 +99,17 @@ Tally tally_blocks(std::size_t count, Job &job, double begin_fraction, const Add
   return total;
 }
 
-/// Uniform in (0, 1], a number for each key: no state, so any thread may ask for any sample.
-double random_unit(std::uint64_t key) { return double((scrambled(key + 0x9e3779b97f4a7c15u) >> 11) + 1) * 0x1p-53; }
-
-/// A uniform sample of a tet: exponential variates, normalised.
+/// A sample at a random place of the tet.
 void add_sample(const MeshView &mesh, std::size_t tet, std::uint64_t key, const Field &field, double unit,
                 Tally &tally) {
-  double weights[4], total = 0;
-  for (std::uint64_t k = 0; k < 4; k++) total += weights[k] = -std::log(random_unit(4 * key + k)) + 1e-300;
+  double weights[4];
+  random_weights(key, weights);
   Vec3 p(0);
   double value = 0;
   for (std::size_t k = 0; k < 4; k++) {
     const auto v = std::size_t(mesh.tets[tet][k]);
-    p += weights[k] / total * mesh.points[v];
-    value += weights[k] / total * mesh.scalars[v * mesh.fields];
+    p += weights[k] * mesh.points[v];
+    value += weights[k] * mesh.scalars[v * mesh.fields];
   }
   tally.add(field, p, value, unit);
 }

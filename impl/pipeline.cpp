@@ -152,11 +152,10 @@ class Pipeline {
     options.later = job_.memory.in_use() + bytes_to_refine(original_.view, sizes.tets, rounds_of(options_, report_));
     options.one_of_many = report_.reused_tets > 0 && history.is_repeated();
     const OriginalSolid original{original_.view, boundary_, prepared_.surface(job_), prepared_.topology(job_)};
-    CoarseSolid coarse(job_.memory);
-    const std::string wrong = decimate_solid_and_check(original, options, sizes.lowered, history, job_, coarse);
+    CoarseSolid coarse = decimate_solid_and_check(original, options, sizes.lowered, history, job_);
+    const std::string failure = coarse.wrong.empty() ? "" : "edges collapsed in vain: " + coarse.wrong;
     if (is_better(coarse, best)) best = std::move(coarse);
-    if (wrong.empty()) return true;
-    const std::string failure = "edges collapsed in vain: " + wrong;
+    if (failure.empty()) return true;
     if (job_.log) job_.log(1, failure.c_str());
     if (failure_.empty()) failure_ = failure;
     return false;

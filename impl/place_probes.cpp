@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "hash.hpp"
 #include "kd_tree.hpp"
+#include "random_place.hpp"
 #include "sort_by_place.hpp"
 #include "surface_distance.hpp"
 #include "whole_arrays.hpp"
@@ -23,9 +23,6 @@ constexpr double vertices_a_tet = 8, inner_a_tet = 8, vertices_without_rounds = 
                  inner_for_values = 1;
 constexpr std::size_t block = 1024;
 constexpr int longest_walk = 200;
-
-/// Uniform in [0, 1), a number for each key.
-double random_unit(std::uint64_t key) { return double(scrambled((key + 1) * 0x9e3779b97f4a7c15u) >> 11) * 0x1p-53; }
 
 /// Of the values at the corners of t.
 template <std::size_t m>
@@ -63,13 +60,11 @@ void add_vertices(const MeshView &original, double most, Job &job, AdaptiveMesh<
   }
 }
 
-/// At a random place of tet t, uniformly: the gaps between three sorted numbers are its weights.
+/// At a random place of tet t.
 template <std::size_t m>
 Probe<m> probe_inside(const MeshView &original, const Tet &t, std::uint64_t key) {
-  double cut[3];
-  for (std::size_t k = 0; k < 3; k++) cut[k] = random_unit(3 * key + k);
-  std::sort(cut, cut + 3);
-  const double weights[4] = {cut[0], cut[1] - cut[0], cut[2] - cut[1], 1 - cut[2]};
+  double weights[4];
+  random_weights(key, weights);
   const Span<const Values<m>> values = original.values<m>();
   Probe<m> probe{Vec3(0), {}};
   for (std::size_t k = 0; k < 4; k++) {

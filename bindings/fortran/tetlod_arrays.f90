@@ -1,5 +1,5 @@
 ! Describes Fortran arrays to the C ABI, in place: the strides are the distances of neighbouring elements, so a section
-! of a larger array, also one that runs backwards, needs no copy. The dummies are assumed-shape and never contiguous:
+! of a larger array, also one that runs backwards, needs no copy. The dummies are assumed-rank and never contiguous:
 ! a contiguous one would get a temporary that dies on return, while the library still borrows it.
 module tetlod_arrays
   use, intrinsic :: iso_c_binding, only: c_int32_t, c_int64_t, c_intptr_t, c_loc, c_null_ptr, c_ptr, c_sizeof
@@ -9,10 +9,10 @@ module tetlod_arrays
   private
   public :: array_of, empty_array
 
-  ! Of an array (n): n tuples of one component; of an array (k, n): n tuples of k components.
+  ! Of an array (n): n tuples of one component; of an array (k, n): n tuples of k components; of another rank, none,
+  ! which the library refuses.
   interface array_of
-    module procedure r32_values, r32_tuples, r64_values, r64_tuples, &
-      i8_values, i32_values, i32_tuples, i64_values, i64_tuples
+    module procedure r32_array, r64_array, i8_array, i32_array, i64_array
   end interface
 
 contains
@@ -30,12 +30,11 @@ contains
     bytes = int(transfer(to, 0_c_intptr_t) - transfer(from, 0_c_intptr_t), c_int64_t)
   end function
 
-  function described(type, components, tuples, first, next_component, next_tuple) result(array)
-    integer(c_int32_t), intent(in) :: type
-    integer(c_int64_t), intent(in) :: components, tuples
+  function described(shape, first, next_component, next_tuple) result(array)
+    type(tetlod_array), intent(in) :: shape
     type(c_ptr), intent(in) :: first, next_component, next_tuple
     type(tetlod_array) :: array
-    array = shaped(type, components, tuples)
+    array = shape
     array%component_stride = distance(first, next_component)
     array%tuple_stride = distance(first, next_tuple)
     array%data = first
@@ -53,94 +52,98 @@ contains
     array%data = c_null_ptr
   end function
 
-  function r32_values(a) result(array)
-    real(real32), intent(in), target :: a(:)
-    type(tetlod_array) :: array
-    integer(c_int64_t) :: n
-    n = size(a, kind=c_int64_t)
-    array = shaped(TETLOD_FLOAT32, 1_c_int64_t, n)
-    if (n > 0) array = described(TETLOD_FLOAT32, 1_c_int64_t, n, c_loc(a(1)), c_loc(a(1)), &
-      c_loc(a(min(2_c_int64_t, n))))
-  end function
-
-  function r32_tuples(a) result(array)
-    real(real32), intent(in), target :: a(:, :)
+  function r32_array(a) result(array)
+    real(real32), intent(in), target :: a(..)
     type(tetlod_array) :: array
     integer(c_int64_t) :: k, n
-    k = size(a, 1, kind=c_int64_t)
-    n = size(a, 2, kind=c_int64_t)
-    array = shaped(TETLOD_FLOAT32, k, n)
-    if (k > 0 .and. n > 0) array = described(TETLOD_FLOAT32, k, n, c_loc(a(1, 1)), c_loc(a(min(2_c_int64_t, k), 1)), &
-      c_loc(a(1, min(2_c_int64_t, n))))
+    array = shaped(TETLOD_FLOAT32, 0_c_int64_t, 0_c_int64_t)
+    select rank (a)
+    rank (1)
+      n = size(a, kind=c_int64_t)
+      array = shaped(TETLOD_FLOAT32, 1_c_int64_t, n)
+      if (n > 0) array = described(array, c_loc(a(1)), c_loc(a(1)), c_loc(a(min(2_c_int64_t, n))))
+    rank (2)
+      k = size(a, 1, kind=c_int64_t)
+      n = size(a, 2, kind=c_int64_t)
+      array = shaped(TETLOD_FLOAT32, k, n)
+      if (k > 0 .and. n > 0) array = described(array, c_loc(a(1, 1)), c_loc(a(min(2_c_int64_t, k), 1)), &
+        c_loc(a(1, min(2_c_int64_t, n))))
+    end select
   end function
 
-  function r64_values(a) result(array)
-    real(real64), intent(in), target :: a(:)
-    type(tetlod_array) :: array
-    integer(c_int64_t) :: n
-    n = size(a, kind=c_int64_t)
-    array = shaped(TETLOD_FLOAT64, 1_c_int64_t, n)
-    if (n > 0) array = described(TETLOD_FLOAT64, 1_c_int64_t, n, c_loc(a(1)), c_loc(a(1)), &
-      c_loc(a(min(2_c_int64_t, n))))
-  end function
-
-  function r64_tuples(a) result(array)
-    real(real64), intent(in), target :: a(:, :)
+  function r64_array(a) result(array)
+    real(real64), intent(in), target :: a(..)
     type(tetlod_array) :: array
     integer(c_int64_t) :: k, n
-    k = size(a, 1, kind=c_int64_t)
-    n = size(a, 2, kind=c_int64_t)
-    array = shaped(TETLOD_FLOAT64, k, n)
-    if (k > 0 .and. n > 0) array = described(TETLOD_FLOAT64, k, n, c_loc(a(1, 1)), c_loc(a(min(2_c_int64_t, k), 1)), &
-      c_loc(a(1, min(2_c_int64_t, n))))
+    array = shaped(TETLOD_FLOAT64, 0_c_int64_t, 0_c_int64_t)
+    select rank (a)
+    rank (1)
+      n = size(a, kind=c_int64_t)
+      array = shaped(TETLOD_FLOAT64, 1_c_int64_t, n)
+      if (n > 0) array = described(array, c_loc(a(1)), c_loc(a(1)), c_loc(a(min(2_c_int64_t, n))))
+    rank (2)
+      k = size(a, 1, kind=c_int64_t)
+      n = size(a, 2, kind=c_int64_t)
+      array = shaped(TETLOD_FLOAT64, k, n)
+      if (k > 0 .and. n > 0) array = described(array, c_loc(a(1, 1)), c_loc(a(min(2_c_int64_t, k), 1)), &
+        c_loc(a(1, min(2_c_int64_t, n))))
+    end select
   end function
 
-  function i8_values(a) result(array)
-    integer(int8), intent(in), target :: a(:)
-    type(tetlod_array) :: array
-    integer(c_int64_t) :: n
-    n = size(a, kind=c_int64_t)
-    array = shaped(TETLOD_UINT8, 1_c_int64_t, n)
-    if (n > 0) array = described(TETLOD_UINT8, 1_c_int64_t, n, c_loc(a(1)), c_loc(a(1)), c_loc(a(min(2_c_int64_t, n))))
-  end function
-
-  function i32_values(a) result(array)
-    integer(int32), intent(in), target :: a(:)
-    type(tetlod_array) :: array
-    integer(c_int64_t) :: n
-    n = size(a, kind=c_int64_t)
-    array = shaped(TETLOD_INT32, 1_c_int64_t, n)
-    if (n > 0) array = described(TETLOD_INT32, 1_c_int64_t, n, c_loc(a(1)), c_loc(a(1)), c_loc(a(min(2_c_int64_t, n))))
-  end function
-
-  function i32_tuples(a) result(array)
-    integer(int32), intent(in), target :: a(:, :)
+  function i8_array(a) result(array)
+    integer(int8), intent(in), target :: a(..)
     type(tetlod_array) :: array
     integer(c_int64_t) :: k, n
-    k = size(a, 1, kind=c_int64_t)
-    n = size(a, 2, kind=c_int64_t)
-    array = shaped(TETLOD_INT32, k, n)
-    if (k > 0 .and. n > 0) array = described(TETLOD_INT32, k, n, c_loc(a(1, 1)), c_loc(a(min(2_c_int64_t, k), 1)), &
-      c_loc(a(1, min(2_c_int64_t, n))))
+    array = shaped(TETLOD_UINT8, 0_c_int64_t, 0_c_int64_t)
+    select rank (a)
+    rank (1)
+      n = size(a, kind=c_int64_t)
+      array = shaped(TETLOD_UINT8, 1_c_int64_t, n)
+      if (n > 0) array = described(array, c_loc(a(1)), c_loc(a(1)), c_loc(a(min(2_c_int64_t, n))))
+    rank (2)
+      k = size(a, 1, kind=c_int64_t)
+      n = size(a, 2, kind=c_int64_t)
+      array = shaped(TETLOD_UINT8, k, n)
+      if (k > 0 .and. n > 0) array = described(array, c_loc(a(1, 1)), c_loc(a(min(2_c_int64_t, k), 1)), &
+        c_loc(a(1, min(2_c_int64_t, n))))
+    end select
   end function
 
-  function i64_values(a) result(array)
-    integer(int64), intent(in), target :: a(:)
-    type(tetlod_array) :: array
-    integer(c_int64_t) :: n
-    n = size(a, kind=c_int64_t)
-    array = shaped(TETLOD_INT64, 1_c_int64_t, n)
-    if (n > 0) array = described(TETLOD_INT64, 1_c_int64_t, n, c_loc(a(1)), c_loc(a(1)), c_loc(a(min(2_c_int64_t, n))))
-  end function
-
-  function i64_tuples(a) result(array)
-    integer(int64), intent(in), target :: a(:, :)
+  function i32_array(a) result(array)
+    integer(int32), intent(in), target :: a(..)
     type(tetlod_array) :: array
     integer(c_int64_t) :: k, n
-    k = size(a, 1, kind=c_int64_t)
-    n = size(a, 2, kind=c_int64_t)
-    array = shaped(TETLOD_INT64, k, n)
-    if (k > 0 .and. n > 0) array = described(TETLOD_INT64, k, n, c_loc(a(1, 1)), c_loc(a(min(2_c_int64_t, k), 1)), &
-      c_loc(a(1, min(2_c_int64_t, n))))
+    array = shaped(TETLOD_INT32, 0_c_int64_t, 0_c_int64_t)
+    select rank (a)
+    rank (1)
+      n = size(a, kind=c_int64_t)
+      array = shaped(TETLOD_INT32, 1_c_int64_t, n)
+      if (n > 0) array = described(array, c_loc(a(1)), c_loc(a(1)), c_loc(a(min(2_c_int64_t, n))))
+    rank (2)
+      k = size(a, 1, kind=c_int64_t)
+      n = size(a, 2, kind=c_int64_t)
+      array = shaped(TETLOD_INT32, k, n)
+      if (k > 0 .and. n > 0) array = described(array, c_loc(a(1, 1)), c_loc(a(min(2_c_int64_t, k), 1)), &
+        c_loc(a(1, min(2_c_int64_t, n))))
+    end select
+  end function
+
+  function i64_array(a) result(array)
+    integer(int64), intent(in), target :: a(..)
+    type(tetlod_array) :: array
+    integer(c_int64_t) :: k, n
+    array = shaped(TETLOD_INT64, 0_c_int64_t, 0_c_int64_t)
+    select rank (a)
+    rank (1)
+      n = size(a, kind=c_int64_t)
+      array = shaped(TETLOD_INT64, 1_c_int64_t, n)
+      if (n > 0) array = described(array, c_loc(a(1)), c_loc(a(1)), c_loc(a(min(2_c_int64_t, n))))
+    rank (2)
+      k = size(a, 1, kind=c_int64_t)
+      n = size(a, 2, kind=c_int64_t)
+      array = shaped(TETLOD_INT64, k, n)
+      if (k > 0 .and. n > 0) array = described(array, c_loc(a(1, 1)), c_loc(a(min(2_c_int64_t, k), 1)), &
+        c_loc(a(1, min(2_c_int64_t, n))))
+    end select
   end function
 end module

@@ -13,17 +13,17 @@ module tetlod_fields_of_result
 
   type, extends(tetlod_input), public :: tetlod_fields
   contains
-    generic :: submit_field => submit_field_r32, submit_field_r64, submit_field_i32, submit_field_i64
+    generic :: submit_field => submit_field_r32, submit_field_r64, submit_field_i8, submit_field_i32, submit_field_i64
     generic :: submit_steering => submit_steering_r32, submit_steering_r64
-    generic :: fetch_field => fetch_field_r32, fetch_field_r64, fetch_field_i32, fetch_field_i64
+    generic :: fetch_field => fetch_field_r32, fetch_field_r64, fetch_field_i8, fetch_field_i32, fetch_field_i64
     generic :: fetch_stencil => fetch_stencil_i32, fetch_stencil_i64
-    generic :: transfer => transfer_r32, transfer_r64, transfer_i32, transfer_i64
+    generic :: transfer => transfer_r32, transfer_r64, transfer_i8, transfer_i32, transfer_i64
     procedure :: submit_point_flags
-    procedure, private :: submit_field_r32, submit_field_r64, submit_field_i32, submit_field_i64
-    procedure, private :: fetch_field_r32, fetch_field_r64, fetch_field_i32, fetch_field_i64
+    procedure, private :: submit_field_r32, submit_field_r64, submit_field_i8, submit_field_i32, submit_field_i64
+    procedure, private :: fetch_field_r32, fetch_field_r64, fetch_field_i8, fetch_field_i32, fetch_field_i64
     procedure, private :: submit_steering_r32, submit_steering_r64
     procedure, private :: fetch_stencil_i32, fetch_stencil_i64
-    procedure, private :: transfer_r32, transfer_r64, transfer_i32, transfer_i64
+    procedure, private :: transfer_r32, transfer_r64, transfer_i8, transfer_i32, transfer_i64
   end type
 
 contains
@@ -114,32 +114,33 @@ contains
     call lend_steering(this, name, weight, array_of(values), stat, errmsg)
   end subroutine
 
-  ! values(components, n), a tuple a point or a tet by association: TETLOD_POINT_FIELD, TETLOD_CELL_FIELD; borrowed.
+  ! values(n) or values(components, n), of points or of tets by association: TETLOD_POINT_FIELD, TETLOD_CELL_FIELD;
+  ! borrowed.
   subroutine submit_field_r32(this, name, association, values, stat, errmsg)
     class(tetlod_fields), intent(inout) :: this
     character(len=*), intent(in) :: name
     integer(c_int32_t), intent(in) :: association
-    real(real32), intent(in), target :: values(:, :)
+    real(real32), intent(in), target :: values(..)
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
     call lend_field(this, name, association, array_of(values), stat, errmsg)
   end subroutine
 
-  ! values(components, n), with room for the result's points or tets.
+  ! values(n) or values(components, n), with room for the result's points or tets.
   subroutine fetch_field_r32(this, name, values, stat, errmsg)
     class(tetlod_fields), intent(inout) :: this
     character(len=*), intent(in) :: name
-    real(real32), intent(inout), target :: values(:, :)
+    real(real32), intent(inout), target :: values(..)
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
     call fill_field(this, name, array_of(values), stat, errmsg)
   end subroutine
 
-  ! Any point field, original(components, points of the run), to simplified(components, points of the result).
+  ! Any point field, original(points of the run), to simplified(points of the result), or both with components before.
   subroutine transfer_r32(this, original, simplified, stat, errmsg)
     class(tetlod_fields), intent(inout) :: this
-    real(real32), intent(in), target :: original(:, :)
-    real(real32), intent(inout), target :: simplified(:, :)
+    real(real32), intent(in), target :: original(..)
+    real(real32), intent(inout), target :: simplified(..)
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
     call move_field(this, array_of(original), array_of(simplified), stat, errmsg)
@@ -156,32 +157,33 @@ contains
     call lend_steering(this, name, weight, array_of(values), stat, errmsg)
   end subroutine
 
-  ! values(components, n), a tuple a point or a tet by association: TETLOD_POINT_FIELD, TETLOD_CELL_FIELD; borrowed.
+  ! values(n) or values(components, n), of points or of tets by association: TETLOD_POINT_FIELD, TETLOD_CELL_FIELD;
+  ! borrowed.
   subroutine submit_field_r64(this, name, association, values, stat, errmsg)
     class(tetlod_fields), intent(inout) :: this
     character(len=*), intent(in) :: name
     integer(c_int32_t), intent(in) :: association
-    real(real64), intent(in), target :: values(:, :)
+    real(real64), intent(in), target :: values(..)
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
     call lend_field(this, name, association, array_of(values), stat, errmsg)
   end subroutine
 
-  ! values(components, n), with room for the result's points or tets.
+  ! values(n) or values(components, n), with room for the result's points or tets.
   subroutine fetch_field_r64(this, name, values, stat, errmsg)
     class(tetlod_fields), intent(inout) :: this
     character(len=*), intent(in) :: name
-    real(real64), intent(inout), target :: values(:, :)
+    real(real64), intent(inout), target :: values(..)
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
     call fill_field(this, name, array_of(values), stat, errmsg)
   end subroutine
 
-  ! Any point field, original(components, points of the run), to simplified(components, points of the result).
+  ! Any point field, original(points of the run), to simplified(points of the result), or both with components before.
   subroutine transfer_r64(this, original, simplified, stat, errmsg)
     class(tetlod_fields), intent(inout) :: this
-    real(real64), intent(in), target :: original(:, :)
-    real(real64), intent(inout), target :: simplified(:, :)
+    real(real64), intent(in), target :: original(..)
+    real(real64), intent(inout), target :: simplified(..)
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
     call move_field(this, array_of(original), array_of(simplified), stat, errmsg)
@@ -209,63 +211,97 @@ contains
     call fill_stencil(this, array_of(ids), array_of(weights), index_base, stat, errmsg)
   end subroutine
 
-  ! values(components, n), a tuple a point or a tet by association: TETLOD_POINT_FIELD, TETLOD_CELL_FIELD; borrowed.
-  subroutine submit_field_i32(this, name, association, values, stat, errmsg)
+  ! values(n) or values(components, n), of points or of tets by association: TETLOD_POINT_FIELD, TETLOD_CELL_FIELD;
+  ! borrowed.
+  subroutine submit_field_i8(this, name, association, values, stat, errmsg)
     class(tetlod_fields), intent(inout) :: this
     character(len=*), intent(in) :: name
     integer(c_int32_t), intent(in) :: association
-    integer(int32), intent(in), target :: values(:, :)
+    integer(int8), intent(in), target :: values(..)
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
     call lend_field(this, name, association, array_of(values), stat, errmsg)
   end subroutine
 
-  ! values(components, n), with room for the result's points or tets.
-  subroutine fetch_field_i32(this, name, values, stat, errmsg)
+  ! values(n) or values(components, n), with room for the result's points or tets.
+  subroutine fetch_field_i8(this, name, values, stat, errmsg)
     class(tetlod_fields), intent(inout) :: this
     character(len=*), intent(in) :: name
-    integer(int32), intent(inout), target :: values(:, :)
+    integer(int8), intent(inout), target :: values(..)
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
     call fill_field(this, name, array_of(values), stat, errmsg)
   end subroutine
 
-  ! Any point field, original(components, points of the run), to simplified(components, points of the result).
-  subroutine transfer_i32(this, original, simplified, stat, errmsg)
+  ! Any point field, original(points of the run), to simplified(points of the result), or both with components before.
+  subroutine transfer_i8(this, original, simplified, stat, errmsg)
     class(tetlod_fields), intent(inout) :: this
-    integer(int32), intent(in), target :: original(:, :)
-    integer(int32), intent(inout), target :: simplified(:, :)
+    integer(int8), intent(in), target :: original(..)
+    integer(int8), intent(inout), target :: simplified(..)
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
     call move_field(this, array_of(original), array_of(simplified), stat, errmsg)
   end subroutine
 
-  ! values(components, n), a tuple a point or a tet by association: TETLOD_POINT_FIELD, TETLOD_CELL_FIELD; borrowed.
-  subroutine submit_field_i64(this, name, association, values, stat, errmsg)
+  ! values(n) or values(components, n), of points or of tets by association: TETLOD_POINT_FIELD, TETLOD_CELL_FIELD;
+  ! borrowed.
+  subroutine submit_field_i32(this, name, association, values, stat, errmsg)
     class(tetlod_fields), intent(inout) :: this
     character(len=*), intent(in) :: name
     integer(c_int32_t), intent(in) :: association
-    integer(int64), intent(in), target :: values(:, :)
+    integer(int32), intent(in), target :: values(..)
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
     call lend_field(this, name, association, array_of(values), stat, errmsg)
   end subroutine
 
-  ! values(components, n), with room for the result's points or tets.
-  subroutine fetch_field_i64(this, name, values, stat, errmsg)
+  ! values(n) or values(components, n), with room for the result's points or tets.
+  subroutine fetch_field_i32(this, name, values, stat, errmsg)
     class(tetlod_fields), intent(inout) :: this
     character(len=*), intent(in) :: name
-    integer(int64), intent(inout), target :: values(:, :)
+    integer(int32), intent(inout), target :: values(..)
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
     call fill_field(this, name, array_of(values), stat, errmsg)
   end subroutine
 
-  ! Any point field, original(components, points of the run), to simplified(components, points of the result).
+  ! Any point field, original(points of the run), to simplified(points of the result), or both with components before.
+  subroutine transfer_i32(this, original, simplified, stat, errmsg)
+    class(tetlod_fields), intent(inout) :: this
+    integer(int32), intent(in), target :: original(..)
+    integer(int32), intent(inout), target :: simplified(..)
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call move_field(this, array_of(original), array_of(simplified), stat, errmsg)
+  end subroutine
+
+  ! values(n) or values(components, n), of points or of tets by association: TETLOD_POINT_FIELD, TETLOD_CELL_FIELD;
+  ! borrowed.
+  subroutine submit_field_i64(this, name, association, values, stat, errmsg)
+    class(tetlod_fields), intent(inout) :: this
+    character(len=*), intent(in) :: name
+    integer(c_int32_t), intent(in) :: association
+    integer(int64), intent(in), target :: values(..)
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call lend_field(this, name, association, array_of(values), stat, errmsg)
+  end subroutine
+
+  ! values(n) or values(components, n), with room for the result's points or tets.
+  subroutine fetch_field_i64(this, name, values, stat, errmsg)
+    class(tetlod_fields), intent(inout) :: this
+    character(len=*), intent(in) :: name
+    integer(int64), intent(inout), target :: values(..)
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call fill_field(this, name, array_of(values), stat, errmsg)
+  end subroutine
+
+  ! Any point field, original(points of the run), to simplified(points of the result), or both with components before.
   subroutine transfer_i64(this, original, simplified, stat, errmsg)
     class(tetlod_fields), intent(inout) :: this
-    integer(int64), intent(in), target :: original(:, :)
-    integer(int64), intent(inout), target :: simplified(:, :)
+    integer(int64), intent(in), target :: original(..)
+    integer(int64), intent(inout), target :: simplified(..)
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
     call move_field(this, array_of(original), array_of(simplified), stat, errmsg)

@@ -121,61 +121,67 @@ contains
   ! A cell field is looked up, never mixed: the number of a region stays such a number.
   subroutine test_cell_fields()
     type(tetlod_context) :: lod
-    real(real64), allocatable, target :: region(:, :)
-    integer(int32), allocatable, target :: material(:, :)
+    real(real64), allocatable, target :: region(:)
+    integer(int8), allocatable, target :: mark(:, :)
+    integer(int32), allocatable, target :: material(:)
     integer(int64), allocatable, target :: name(:, :)
-    real(real64), allocatable :: small(:, :), points(:, :)
-    integer(int32), allocatable :: corners(:, :), materials(:, :)
-    integer(int64), allocatable :: names(:, :), moved(:, :), wide_materials(:, :)
+    real(real64), allocatable :: small(:), points(:, :)
+    integer(int8), allocatable :: marks(:)
+    integer(int32), allocatable :: corners(:, :), materials(:)
+    integer(int64), allocatable :: names(:, :), moved(:, :), wide_materials(:)
     integer(int64) :: n, m
     integer :: t, agreed
-    allocate (region(1, size(tets, 2)))
+    allocate (region(size(tets, 2)))
     do t = 1, size(tets, 2)
-      region(1, t) = merge(7, 3, sum(xyz(1, tets(:, t))) > 2)
+      region(t) = merge(7, 3, sum(xyz(1, tets(:, t))) > 2)
     end do
     allocate (material, source=nint(region, int32))
+    allocate (mark(2, 3 * size(region)), source=1_int8)
+    mark(2, 3::3) = int(-material, int8)
     allocate (name, source=reshape([(2_int64**60 + t, t=1, size(xyz, 2))], [1, size(xyz, 2)]))
     call begin(lod)
     call lod%submit_field("region", TETLOD_CELL_FIELD, region)
     call lod%submit_field("material", TETLOD_CELL_FIELD, material)
+    call lod%submit_field("mark", TETLOD_CELL_FIELD, mark(2, 3::3))
     call lod%submit_field("name", TETLOD_POINT_FIELD, name)
     call lod%run()
     call lod%fetch_counts(n, m)
     call lod%fetch_points(points)
     call lod%fetch_tets(corners)
-    allocate (small(1, m))
+    allocate (small(m))
     call lod%fetch_field("region", small)
     call expect(all(nint(small) == 7 .or. nint(small) == 3), "regions stay regions")
     call expect(all(same(small, anint(small))), "regions are not mixed")
     agreed = 0
     do t = 1, int(m)
-      if (nint(small(1, t)) == merge(7, 3, sum(points(1, corners(:, t))) > 2)) agreed = agreed + 1
+      if (nint(small(t)) == merge(7, 3, sum(points(1, corners(:, t))) > 2)) agreed = agreed + 1
     end do
     call expect(agreed == m, "each tet has the region that its centroid is in")
-    allocate (materials(1, m), wide_materials(1, m), names(1, n), moved(1, n))
+    allocate (materials(m), wide_materials(m), marks(m), names(1, n), moved(1, n))
     call lod%fetch_field("material", materials)
     call lod%fetch_field("material", wide_materials)
     call expect(all(materials == nint(small)) .and. all(wide_materials == materials), "integers of cells")
+    call lod%fetch_field("mark", marks)
+    call expect(all(marks == -materials), "bytes of cells, from a section")
     call lod%fetch_field("name", names)
     call expect(all(names > 2_int64**60) .and. all(names <= 2_int64**60 + size(xyz, 2)), "integers of points")
     call expect(all(same(xyz(:, names(1, :) - 2_int64**60), points)), "an original is itself")
     call lod%transfer(name, moved)
     call expect(all(moved == names), "transfer of int64")
-    moved = transferred(lod)
-    call expect(all(moved == names - 2_int64**60), "transfer of int32")
+    call expect(all(transferred(lod) == names(1, :) - 2_int64**60), "transfer of int32")
     call lod%destroy()
   end subroutine
 
   ! The numbers of the points, in 32 bits.
   function transferred(lod) result(numbers)
     type(tetlod_context), intent(inout) :: lod
-    integer(int32), allocatable, target :: number(:, :), small(:, :)
-    integer(int64), allocatable :: numbers(:, :)
+    integer(int32), allocatable, target :: number(:), small(:)
+    integer(int64), allocatable :: numbers(:)
     integer(int64) :: n
     integer(int32) :: i
     call lod%fetch_counts(n)
-    allocate (number, source=reshape([(i, i=1, size(xyz, 2))], [1, size(xyz, 2)]))
-    allocate (small(1, n))
+    allocate (number, source=[(i, i=1, size(xyz, 2))])
+    allocate (small(n))
     call lod%transfer(number, small)
     numbers = small
   end function
@@ -241,7 +247,7 @@ contains
 
   subroutine test_failures()
     type(tetlod_context) :: lod
-    real(real64), allocatable, target :: field(:, :), narrow(:, :)
+    real(real64), allocatable, target :: field(:, :), narrow(:, :), deep(:, :, :)
     character(len=200) :: message
     integer :: stat
     allocate (field, source=linear_at(xyz))
@@ -249,6 +255,9 @@ contains
     allocate (narrow(2, 3), source=-5d0)
     call lod%transfer(field, narrow, stat=stat)
     call expect(stat == TETLOD_ERR_STATE, "no result yet")
+    allocate (deep(2, 2, size(xyz, 2)), source=0d0)
+    call lod%submit_field("deep", TETLOD_POINT_FIELD, deep, stat=stat, errmsg=message)
+    call expect(stat == TETLOD_ERR_ARGUMENT .and. index(message, "0 components") > 0, "of rank 3: "//message)
     call lod%submit_field("short", TETLOD_POINT_FIELD, field(:, :10))
     call lod%run(stat=stat, errmsg=message)
     call expect(stat == TETLOD_ERR_ARGUMENT .and. index(message, "10 tuples") > 0, "too short: "//message)

@@ -51,7 +51,8 @@ class DecimateSolid : public testing::Test {
   bool decimate(double ratio, Host &on, SolidHistory &history, CoarseSolid &coarse) {
     options.tets = std::int64_t(ratio * double(original.tets.size()));
     const MeshView view = original.view();
-    failure = decimate_solid_and_check({view, boundary, surface, topology}, options, lowered, history, on.job, coarse);
+    coarse = decimate_solid_and_check({view, boundary, surface, topology}, options, lowered, history, on.job);
+    failure = coarse.wrong;
     return failure.empty();
   }
 
