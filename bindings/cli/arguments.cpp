@@ -125,7 +125,8 @@ std::pair<std::string, double> weighted_name(const std::string &text) {
 void add_options(CLI::App &app, Arguments &arguments) {
   app.add_option("INPUT", arguments.input, "the mesh: .vtu, .vtk or .pvtu")->required();
   app.add_option("OUTPUT", arguments.output, "the simplified mesh: .vtu or .vtk")->required();
-  app.add_option("--field", arguments.field, "point data that steers [the active scalars, else the first]")
+  app.add_option("--field", arguments.field,
+                 "point data that steers, vectors by their magnitude [the active scalars, else the first]")
       ->type_name("NAME");
   const auto steer = [&arguments](const std::vector<std::string> &fields) {
     for (const std::string &field : fields) arguments.steer.push_back(weighted_name(field));

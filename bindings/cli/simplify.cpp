@@ -5,6 +5,7 @@
 
 #include "failure.hpp"
 #include "interrupt.hpp"
+#include "magnitude.hpp"
 
 namespace cli {
 
@@ -30,8 +31,11 @@ vtkUnstructuredGrid *simplify(vtkTetlodSimplify &filter, vtkUnstructuredGrid *or
                               ProgressBar &bar, VtkMessages &messages, std::vector<std::string> &notes) {
   const CancelOnInterrupt cancel(filter.GetContext());
   filter.SetInputData(original);
-  if (!arguments.field.empty())
-    filter.SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, arguments.field.c_str());
+  const std::string field = steering_name(arguments.field, *original, notes);
+  if (!field.empty()) filter.SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, field.c_str());
+  filter.ClearSteeringArrays();
+  for (const auto &[name, weight] : arguments.steer)
+    filter.AddSteeringArray(steering_name(name, *original, notes).c_str(), weight);
   filter.AddObserver(vtkCommand::ProgressEvent, &bar, &ProgressBar::on_progress);
   filter.Update();
   stop_if_interrupted();

@@ -154,6 +154,27 @@ TEST_F(Files, TheFirstScalarsAreTheDefault) {
   EXPECT_EQ(run(folder / "in.vtk", folder / "out.vtu", {"--field", "other"})["field"], "other");
 }
 
+// The vectors ride along.
+TEST_F(Files, VectorsSteerByTheirMagnitude) {
+  Cube cube;
+  run_on(cube);
+  expect_linear_field_kept(run(folder / "in.vtk", folder / "out.vtu", {"--field", "flow"}));
+  cube.vectors_alone = true;
+  const Json report = run_on(cube);
+  expect_linear_field_kept(report);
+  EXPECT_EQ(report["field"], "flow magnitude");
+  EXPECT_EQ(report["scalar_max"], 1);
+  expect_in(said.err, "note: the vectors 'flow' steer by their magnitude");
+  const std::string out = contents_of(folder / "out.vtu");
+  expect_in(array_tag(out, "flow"), "NumberOfComponents=\"3\"");
+  expect_in(array_tag(out, "flow magnitude"), "RangeMax=\"1\"");
+  expect_in(run_tool({folder / "in.vtk", folder / "out.vtu", "--steer", "flow"}).err, "it is the first");
+  cube.vectors_alone = false;
+  run_on(cube);
+  run(folder / "in.vtk", folder / "out.vtu", {"--steer", "flow:2"});
+  expect_in(said.err, "note: the vectors 'flow' steer by their magnitude");
+}
+
 // Two cubes side by side: the points of the side between them are in both pieces, and become one.
 TEST_F(Files, PartitionedFilesAreOneMesh) {
   Cube cube;

@@ -185,8 +185,8 @@ void write_points(std::ostream &file, const Cube &cube, const Lattice &lattice) 
   });
 }
 
-void write_point_data(std::ostream &file, const Cube &cube, const Lattice &lattice) {
-  file << "POINT_DATA " << lattice.points() << "\nSCALARS heat " << cube.real << " 1\nLOOKUP_TABLE default\n";
+void write_scalars(std::ostream &file, const Cube &cube, const Lattice &lattice) {
+  file << "SCALARS heat " << cube.real << " 1\nLOOKUP_TABLE default\n";
   lattice.for_each_node([&](const Node &n) {
     const bool nan = cube.with_nan && n == Node{0, 0, 0};
     const auto [x, y, z] = lattice.point(n);
@@ -195,8 +195,13 @@ void write_point_data(std::ostream &file, const Cube &cube, const Lattice &latti
   });
   file << "SCALARS " << cube.other << ' ' << cube.real << " 1\nLOOKUP_TABLE default\n";
   lattice.for_each_node([&](const Node &n) { file << lattice.point(n)[0] << '\n'; });
+}
+
+void write_point_data(std::ostream &file, const Cube &cube, const Lattice &lattice) {
+  file << "POINT_DATA " << lattice.points() << '\n';
+  if (!cube.vectors_alone) write_scalars(file, cube, lattice);
   file << "VECTORS flow float\n";
-  lattice.for_each_node([&](const Node &) { file << "1 0 0\n"; });
+  lattice.for_each_node([&](const Node &n) { file << "0 " << -lattice.point(n)[0] << " 0\n"; });
 }
 
 }  // namespace

@@ -17,10 +17,11 @@ struct Cube {
   bool with_triangle = false;   // beside the volume cells
   bool with_nan = false;        // the first value
   bool with_bad_index = false;  // in the last cell
+  bool vectors_alone = false;   // no scalars
 };
 
-// Point data: the active scalars "heat" = x + 2 y + 3 z, further scalars "other" = x, vectors "flow". Cell data:
-// "part", 5 or 6 in turns.
+// Point data: the active scalars "heat" = x + 2 y + 3 z, further scalars "other" = x, vectors "flow" = (0, -x, 0). Cell
+// data: "part", 5 or 6 in turns.
 void write_cube(const std::string &path, const Cube &cube);
 
 }  // namespace cli_test
