@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "flip_tets.hpp"
 #include "most_needed.hpp"
 
 namespace tetlod {
@@ -50,6 +51,8 @@ void fill_up(std::int64_t tets, Job &job, AdaptiveMesh<m> &mesh) {
   };
   serve_most_needed(
       tets, job, mesh, [&](std::int32_t t) { return crowd_in(mesh, t); }, make_vertex);
+  const double missing = double(tets) - double(mesh.count());
+  if (missing < tets_a_vertex && missing > (1 - near_enough) * double(tets)) remove_faces(tets, job, mesh);
 }
 
 template void fill_up(std::int64_t, Job &, AdaptiveMesh<1> &);

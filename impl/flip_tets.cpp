@@ -1,5 +1,7 @@
 #include "flip_tets.hpp"
 
+#include <limits>
+
 #include "sweep.hpp"
 
 namespace tetlod {
@@ -20,6 +22,16 @@ template <std::size_t m>
 class FlipFinder {
  public:
   FlipFinder(double price, const AdaptiveMesh<m> &mesh) : price_(price), mesh_(mesh) {}
+
+  /// Of the faces of t the one whose removal changes the sum of squares by less than `best`, and by the least.
+  void find_face(std::int32_t t, double &best, Flip &flip) const {
+    Flip other;
+    for (int k = 0; k < 4; k++) {
+      if (!face_removal(t, k, other)) continue;
+      if (!mesh_.is_better(other.old, other.fresh, 0, mesh_.error_of(other.old), best)) continue;
+      flip = other;
+    }
+  }
 
   /// The first kind of flip around t that pays, in its best form.
   bool find(std::int32_t t, Flip &flip) const {
@@ -45,13 +57,19 @@ class FlipFinder {
   /// Not for a gain of rounding: flips would go round in circles.
   double least_gain(double old_error) const { return -1e-6 * (old_error + price_) - 1e-300; }
 
-  /// The face opposite corner k, between two tets, becomes the edge between their far corners.
   bool remove_face(std::int32_t t, int k, Flip &flip) const {
+    if (!face_removal(t, k, flip)) return false;
+    const double old_error = mesh_.error_of(flip.old);
+    double best = least_gain(old_error);
+    return old_error > price_ && mesh_.is_better(flip.old, flip.fresh, price_, old_error, best);
+  }
+
+  /// The face opposite corner k, between two tets, becomes the edge between their far corners. False: there is no such,
+  /// or it is the other tet's turn.
+  bool face_removal(std::int32_t t, int k, Flip &flip) const {
     const std::int32_t n = mesh_.neighbours[std::size_t(t)][std::size_t(k)];
     if (n < 0 || is_before(n, t)) return false;
     const Tet &tet = mesh_.tets[std::size_t(t)];
-    const double old_error = mesh_.error[std::size_t(t)] + mesh_.error[std::size_t(n)];
-    if (old_error <= price_) return false;
     std::int32_t far = -1;
     for (std::size_t i = 0; i < 4; i++)
       if (mesh_.neighbours[std::size_t(n)][i] == t) far = mesh_.tets[std::size_t(n)][i];
@@ -65,8 +83,7 @@ class FlipFinder {
       const std::int32_t a = tet[std::size_t(tet_face[k][i])], b = tet[std::size_t(tet_face[k][(i + 1) % 3])];
       flip.fresh.push({near, a, b, far});
     }
-    double best = least_gain(old_error);
-    return mesh_.is_better(flip.old, flip.fresh, price_, old_error, best);
+    return true;
   }
 
   /// An inner edge (a, b) gives way to triangles of its ring.
@@ -118,9 +135,28 @@ void flip_tets(double price, Job &job, AdaptiveMesh<m> &mesh) {
       [&](const Flip &flip) { mesh.replace(flip.old, flip.fresh, made); });
 }
 
+template <std::size_t m>
+void remove_faces(std::int64_t tets, Job &job, AdaptiveMesh<m> &mesh) {
+  const FlipFinder finder(0, mesh);
+  Array<std::int32_t> made(&job.memory);
+  while (std::int64_t(mesh.count()) < tets) {
+    job.poll(0.9);
+    double best = std::numeric_limits<double>::infinity();
+    Flip flip;
+    for (std::size_t t = 0; t < mesh.tets.size(); t++)
+      if (mesh.alive(std::int32_t(t))) finder.find_face(std::int32_t(t), best, flip);
+    if (flip.old.size() == 0) return;
+    mesh.replace(flip.old, flip.fresh, made);
+  }
+}
+
 template void flip_tets(double, Job &, AdaptiveMesh<1> &);
 template void flip_tets(double, Job &, AdaptiveMesh<2> &);
 template void flip_tets(double, Job &, AdaptiveMesh<3> &);
 template void flip_tets(double, Job &, AdaptiveMesh<4> &);
+template void remove_faces(std::int64_t, Job &, AdaptiveMesh<1> &);
+template void remove_faces(std::int64_t, Job &, AdaptiveMesh<2> &);
+template void remove_faces(std::int64_t, Job &, AdaptiveMesh<3> &);
+template void remove_faces(std::int64_t, Job &, AdaptiveMesh<4> &);
 
 }  // namespace tetlod

@@ -11,4 +11,9 @@ namespace tetlod {
 template <std::size_t m>
 void flip_tets(double price, Job &job, AdaptiveMesh<m> &mesh);
 
+/// Removes faces (2-3), one by one, where that leaves the smallest sum of squares, until there are so many tets, or no
+/// face is left that leaves sound shapes. Looks at all of them each time.
+template <std::size_t m>
+void remove_faces(std::int64_t tets, Job &job, AdaptiveMesh<m> &mesh);
+
 }  // namespace tetlod

@@ -53,9 +53,10 @@ class Pipeline {
   Outlook outlook() { return outlook_of(original_, boundary_, selected_, options_, budget_, report_, job_); }
 
   void run(Worker &worker) {
+    if (as_published(options_) && !options_.remesh)
+      fail(Status::backend_missing, "remesh is 0, and neither target-ratio nor max-error is set");
     begin();
     if (as_published(options_)) {
-      if (!options_.remesh) fail(Status::backend_missing, "remesh is 0, and neither target-ratio nor max-error is set");
       decimate(budget_.sigma);
       simplify(worker);
       reconstruct_field();

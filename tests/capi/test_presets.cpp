@@ -101,5 +101,23 @@ TEST_F(Presets, KeepTheOriginalWhereAllIsKept) {
   }
 }
 
+/// A collapse takes several tets, and a vertex brings three or more.
+TEST_F(Presets, AFewTetsAreMetToo) {
+  Cube cube(6);
+  make_ball(cube);
+  const double tets = double(cube.corners.size() / 4);
+  for (const std::int32_t preset : {TETLOD_PRESET_FAST, TETLOD_PRESET_ACCURATE}) {
+    const Context context = make_context();
+    submit(context.get(), cube);
+    ASSERT_EQ(tetlod_set_preset(context.get(), preset), TETLOD_OK);
+    for (int size = 25; size < 70; size++) {
+      ASSERT_EQ(tetlod_set_real(context.get(), TETLOD_OPT_TARGET_RATIO, (size + 0.5) / tets), TETLOD_OK);
+      ASSERT_EQ(tetlod_run(context.get()), TETLOD_OK) << message_of(context.get());
+      EXPECT_GE(double(report_of(context.get()).tets_out), 0.97 * size) << preset;
+      EXPECT_LE(report_of(context.get()).tets_out, size + 1) << preset;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace tetlod_test
