@@ -227,7 +227,7 @@ bool ChildProcess::is_connected() const noexcept {
 }
 
 bool ChildProcess::has_ended() const noexcept {
-  if (handle_.number() < 0) return true;
+  if (!handle_.is_open()) return true;
   pollfd ended = {handle_.number(), POLLIN, 0};
   return ::poll(&ended, 1, 0) == 1;
 }
@@ -241,9 +241,11 @@ double ChildProcess::cpu_seconds() const noexcept {
 }
 
 // Signals and waits go through the pidfd: the number of a process that the host has reaped may be another's already.
+// Nor is it touched where the host has closed the pidfd, whose number may be that of one of its own; the end of the
+// control socket ends it then.
 Ending ChildProcess::end() noexcept {
   siginfo_t information = {};
-  if (handle_.number() >= 0) {
+  if (handle_.is_open()) {
     ::syscall(SYS_pidfd_send_signal, handle_.number(), SIGKILL, nullptr, 0);
     while (::waitid(idtype_t(wait_by_pidfd), id_t(handle_.number()), &information, WEXITED) < 0 && errno == EINTR) {
     }

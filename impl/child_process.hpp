@@ -60,7 +60,7 @@ class ChildProcess {
   bool has_ended() const noexcept;
   /// Of processor time that it has used; negative where that cannot be known.
   double cpu_seconds() const noexcept;
-  /// Kills it if it still runs, and reaps it.
+  /// Kills it if it still runs, and reaps it; forgets it where the host has closed the handle.
   Ending end() noexcept;
 
   int control() const noexcept { return control_.number(); }  ///< socket, non-blocking

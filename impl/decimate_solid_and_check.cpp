@@ -85,8 +85,9 @@ bool lower(const OriginalSolid &original, const SolidOptions &options, double le
   const Array<std::uint8_t> stay = vertices_that_stay(options, job.memory);
   lowered.deviation = lower_deviation(original.surface, stay, least, most, job, lowered.mesh, lowered.origin);
   check(original, options, job, lowered);
-  if (lowered.is_sound) coarse = std::move(lowered);
-  return coarse.is_sound;
+  const bool is_sound = lowered.is_sound;
+  if (is_sound) coarse = std::move(lowered);
+  return is_sound;
 }
 
 CoarseSolid decimate_and_check(const OriginalSolid &original, const SolidOptions &options, std::int64_t lowered,

@@ -1,6 +1,7 @@
 #include "find_crossing.hpp"
 
 #include <array>
+#include <atomic>
 
 #include "host_numbers.hpp"
 #include "kd_tree.hpp"
@@ -38,20 +39,24 @@ std::pair<std::int32_t, std::int32_t> find_crossing(const Surface &surface, Job 
   for (const Triangle &t : surface.triangles) boxes.push_back(box_of(surface.points, t));
   KdTree tree(job.memory);
   tree.build(Array<Box>(boxes, &job.memory), 4, job, 1);
-  Array<std::int32_t> partner(boxes.size(), -1, &job.memory);
+  const auto none = std::int32_t(boxes.size());
+  Array<std::int32_t> partner(boxes.size(), none, &job.memory);
+  std::atomic<std::int32_t> first{none};  // that crosses another, of those that are known
   job.parallel.for_blocks(boxes.size(), block, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; t++)
-      tree.any_overlap(boxes[t], [&](std::int32_t other) {
-        const auto self = std::int32_t(t);
-        if (other <= self || !cross(surface, self, other)) return false;
-        partner[t] = partner[t] < 0 ? other : std::min(partner[t], other);
+    for (auto t = std::int32_t(begin); t < std::int32_t(end) && t < first; t++) {
+      if (t % 8 == 0) job.poll(double(t) / double(boxes.size()));
+      std::int32_t &least = partner[std::size_t(t)];
+      tree.any_overlap(boxes[std::size_t(t)], [&](std::int32_t other) {
+        if (other > t && other < least && cross(surface, t, other)) least = other;
         return false;
       });
-    job.poll(double(begin) / double(boxes.size()));
+      if (least == none) continue;
+      for (std::int32_t known = first; t < known && !first.compare_exchange_weak(known, t);) {
+      }
+    }
   });
-  for (std::size_t t = 0; t < partner.size(); t++)
-    if (partner[t] >= 0) return {std::int32_t(t), partner[t]};
-  return {-1, -1};
+  if (first == none) return {-1, -1};
+  return {first, partner[std::size_t(first)]};
 }
 
 void refuse_crossing(const Surface &surface, std::int32_t index_base, Job &job) {

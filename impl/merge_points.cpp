@@ -54,10 +54,20 @@ std::int32_t find_equal(const PointTable &table, Span<const Vec3> points, std::i
   return found;
 }
 
-std::int32_t find_near(const PointTable &table, Span<const Vec3> points, std::int32_t v, double tolerance) {
+/// Of the cells that points are looked up by: the tolerance, but not so small that coordinates have no cell.
+double size_of_cells(Span<const Vec3> points, Span<const std::uint8_t> used, double tolerance) {
+  constexpr double finest = 1e-12;
+  double largest = 0;
+  for (std::size_t v = 0; v < points.size(); v++)
+    for (int k = 0; k < 3 && used[v]; k++) largest = std::max(largest, std::abs(points[v][k]));
+  return std::max(tolerance, finest * largest);
+}
+
+std::int32_t find_near(const PointTable &table, Span<const Vec3> points, std::int32_t v, double tolerance,
+                       double size) {
   std::int32_t found = v;
   const Vec3 &p = points[std::size_t(v)];
-  const Vec3 cell = glm::floor(p / tolerance);
+  const Vec3 cell = glm::floor(p / size);
   for (int dx = -1; dx <= 1; dx++)
     for (int dy = -1; dy <= 1; dy++)
       for (int dz = -1; dz <= 1; dz++)
@@ -72,6 +82,7 @@ std::int32_t find_near(const PointTable &table, Span<const Vec3> points, std::in
 std::int64_t merge_points(Span<const Vec3> points, Span<const std::uint8_t> used, double tolerance, Job &job,
                           Array<std::int32_t> &representative) {
   PointTable table(points.size(), job);
+  const double size = tolerance > 0 ? size_of_cells(points, used, tolerance) : 0;
   representative.resize(points.size());
   std::int64_t merged = 0;
   for (std::size_t i = 0; i < points.size(); i++) {
@@ -79,10 +90,11 @@ std::int64_t merge_points(Span<const Vec3> points, Span<const std::uint8_t> used
     if (i % 4096 == 0) job.poll(double(i) / double(points.size()));
     representative[i] = v;
     if (!used[i]) continue;
-    const std::int32_t found = tolerance > 0 ? find_near(table, points, v, tolerance) : find_equal(table, points, v);
+    const std::int32_t found =
+        tolerance > 0 ? find_near(table, points, v, tolerance, size) : find_equal(table, points, v);
     representative[i] = found;
     merged += found != v;
-    if (found == v) table.insert(tolerance > 0 ? glm::floor(points[i] / tolerance) : points[i], v);
+    if (found == v) table.insert(tolerance > 0 ? glm::floor(points[i] / size) : points[i], v);
   }
   return merged;
 }

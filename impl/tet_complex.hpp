@@ -5,6 +5,7 @@
 
 #include "few.hpp"
 #include "job.hpp"
+#include "members.hpp"
 #include "mesh.hpp"
 #include "tet_frame.hpp"
 
@@ -107,12 +108,13 @@ class TetComplex {
 /// From the tets in `around` on, across faces that hold the simplex. push: false where the list is full.
 template <class List, class Push>
 bool TetComplex::flood(const std::int32_t *simplex, std::size_t size, List &around, const Push &push) const {
+  Members members(memory_);
   for (std::size_t i = 0; i < around.size(); i++) {
     const Tet &tet = tets[std::size_t(around[i])];
     for (std::size_t k = 0; k < 4; k++) {
       const std::int32_t n = neighbours[std::size_t(around[i])][k];
       if (n < 0 || std::find(simplex, simplex + size, tet[k]) != simplex + size) continue;
-      if (std::find(around.begin(), around.end(), n) == around.end() && !push(n)) return false;
+      if (!members.has(around, n) && !push(n)) return false;
     }
   }
   return true;

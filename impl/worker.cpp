@@ -50,11 +50,17 @@ void Worker::forget_lost() {
 std::size_t Worker::finish_any(Job &job, TetgenReply &reply) {
   try {
     for (;;) {
+      forget_lost();
+      bool is_busy = false;
       for (std::size_t i = 0; i < processes_.size(); i++) {
-        if (!processes_[i] || !processes_[i]->is_busy() || !processes_[i]->finish(job, reply)) continue;
+        if (!processes_[i] || !processes_[i]->is_busy()) continue;
+        is_busy = true;
+        if (!processes_[i]->finish(job, reply)) continue;
         refuse_exhaustion(reply);
         return i;
       }
+      if (!is_busy)
+        fail(Status::internal, "the host has forked, or closed descriptors, while %s was at work", path_.c_str());
       wait_for_something();
     }
   } catch (...) {

@@ -1,7 +1,9 @@
 // Points at one place, or near each other, become one.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -59,6 +61,23 @@ TEST_F(MergePoints, UnusedStayOut) {
   expect({0, 1, 2, 1});
 }
 
+/// Of points that no tet uses the coordinates may be anything.
+TEST_F(MergePoints, ATinyToleranceTakesNoLonger) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  for (int i = 0; i < 20000; i++) points.push_back(Vec3(uniform(random), uniform(random), uniform(random)));
+  points.push_back(Vec3(std::numeric_limits<double>::infinity()));
+  used.assign(points.size(), 1);
+  used.back() = 0;
+  const auto seconds = [&](double tolerance) {
+    const auto begin = std::chrono::steady_clock::now();
+    EXPECT_EQ(merge(tolerance), 0);
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  };
+  const double usual = seconds(1e-9);
+  EXPECT_LT(seconds(1e-312), 10 * usual);
+}
+
 TEST_F(MergePoints, ChainsDoNotCollapse) {
   for (int i = 0; i < 6; i++) points.push_back(Vec3(0.9 * i, 0, 0));
   EXPECT_EQ(merge(1), 3);
@@ -67,7 +86,7 @@ TEST_F(MergePoints, ChainsDoNotCollapse) {
 
 TEST_F(MergePoints, AgainstBruteForce) {
   std::mt19937_64 random(1);
-  for (double tolerance : {0.0, 0.02, 0.1, 0.4, 5.0})
+  for (double tolerance : {0.0, 1e-312, 0.02, 0.1, 0.4, 5.0})
     for (double shift : {0.0, -0.5, 1000.0}) {
       std::uniform_real_distribution<double> uniform(shift, shift + 1);
       points.clear();

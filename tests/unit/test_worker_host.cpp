@@ -4,13 +4,13 @@
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <filesystem>
-#include <functional>
 #include <map>
 #include <thread>
 
@@ -34,22 +34,6 @@ bool soon(double seconds, const Condition &condition) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   return true;
-}
-
-/// Runs something in a process of its own that may do to itself what it likes; true when it returned true.
-bool in_a_child(const std::function<bool()> &body) {
-  const pid_t pid = ::fork();
-  if (pid == 0) {
-    bool good = false;
-    try {
-      good = body();
-    } catch (...) {
-    }
-    ::_exit(good ? 0 : 1);
-  }
-  int status = -1;
-  ::waitpid(pid, &status, 0);
-  return status == 0;
 }
 
 TEST_F(WorkerTest, InheritsNothing) {
@@ -196,6 +180,28 @@ TEST_F(WorkerTest, DescriptorsClosedBetweenCalls) {
              return ::fstat(descriptor, &status) == 0 && status.st_size == 4;
            });
   }));
+}
+
+/// Whose handles have the numbers that those of the workers had.
+TEST_F(WorkerTest, ChildrenOfTheHostAreLeftAlone) {
+  for (const bool by_a_call : {false, true})
+    EXPECT_TRUE(in_a_child([&] {
+      use(TETLOD_REMESH);
+      if (!works()) return false;
+      for (int descriptor = 3; descriptor < 64; descriptor++) ::close(descriptor);
+      const pid_t child = ::fork();
+      if (child == 0) {
+        ::pause();
+        ::_exit(0);
+      }
+      for (int i = 0; i < 64; i++) ::syscall(SYS_pidfd_open, child, 0);
+      const bool good = !by_a_call || works();
+      worker.reset();
+      const bool lives = ::waitpid(child, nullptr, WNOHANG) == 0;
+      ::kill(child, SIGKILL);
+      ::waitpid(child, nullptr, 0);
+      return good && lives;
+    }));
 }
 
 TEST_F(WorkerTest, ForkedHost) {

@@ -237,6 +237,17 @@ TEST_F(SeveralWorkers, ForkedHost) {
   EXPECT_EQ(finish(2), (Codes{{0, 0}, {1, 0}}));
 }
 
+TEST_F(SeveralWorkers, DescriptorsClosedInTheMiddleOfCalls) {
+  EXPECT_TRUE(in_a_child([&] {
+    begin(0, "waits");
+    begin(1, "waits");
+    for (int descriptor = 3; descriptor < 64; descriptor++) ::close(descriptor);
+    const bool refused = finish_thrown() == Status::internal;
+    ::setenv("FAKE_REMESH", "", 1);
+    return refused && works();
+  }));
+}
+
 TEST_F(SeveralWorkers, HostIgnoresOrReapsItsChildren) {
   struct sigaction reaping = {}, ignoring = {}, old;
   reaping.sa_handler = [](int) {

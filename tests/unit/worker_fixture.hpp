@@ -2,12 +2,14 @@
 #pragma once
 #include <dirent.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -65,6 +67,22 @@ inline std::vector<pid_t> children_of(pid_t parent) {
   }
   ::closedir(folder);
   return children;
+}
+
+/// Runs something in a process of its own that may do to itself what it likes; true when it returned true.
+inline bool in_a_child(const std::function<bool()> &body) {
+  const pid_t pid = ::fork();
+  if (pid == 0) {
+    bool good = false;
+    try {
+      good = body();
+    } catch (...) {
+    }
+    ::_exit(good ? 0 : 1);
+  }
+  int status = -1;
+  ::waitpid(pid, &status, 0);
+  return status == 0;
 }
 
 /// Every test ends with the descriptors it began with and without children, dead or alive.
