@@ -5,6 +5,7 @@
 #include "pipeline.hpp"
 #include "prepare.hpp"
 #include "refine.hpp"
+#include "remesh.hpp"
 #include "status.hpp"
 #include "surface_topology.hpp"
 
@@ -47,6 +48,13 @@ inline void describe_insertions(std::int64_t vertices, Report &report) {
   report.boundary_points_out += vertices;
   report.boundary_edges_out += 3 * vertices;
   report.boundary_triangles_out += 2 * vertices;
+}
+
+inline void describe_remeshing(const RemeshReport &remeshed, std::size_t samples, Report &report) {
+  report.samples = std::int64_t(samples) - remeshed.dropped_samples;
+  report.steiner_points = remeshed.steiner_points;
+  report.remesh_attempts = remeshed.attempts;
+  report.worker_peak_bytes = remeshed.worker_peak_bytes;
 }
 
 /// By collapses alone, whatever was tried before.

@@ -72,7 +72,7 @@ class Pipeline {
   /// As the paper does: fills the boundary, decimated less where TetGen finds no way.
   void simplify(Worker &worker) {
     while (!fill(worker)) {
-      if (budget_.sigma >= 1) throw Error(Status::remesh, failure_);
+      if (budget_.sigma >= 1 || ladder_ == Ladder::first_rung) throw Error(Status::remesh, failure_);
       report_.boundary_retries++;
       budget_.sigma = less_decimated(budget_.sigma);
       decimate(budget_.sigma);
@@ -112,7 +112,9 @@ class Pipeline {
     mesh_.tets.clear();
     report_.reused_collapses = 0;
     if (collapses_edges(options_, report_)) {
-      const bool reached = collapse_edges(false, coarse) || (options_.remesh && remesh_to_target(worker));
+      bool reached = collapse_edges(false, coarse);
+      ladder_ = coarse.is_sound ? Ladder::first_rung : Ladder::whole;
+      if (!reached && options_.remesh) reached = remesh_to_target(worker);
       if (!reached && coarse.is_sound && options_.max_error == 0) collapse_edges(true, coarse);
     } else if (!remesh_to_target(worker) && options_.clean_edges == 0) {
       collapse_edges(true, coarse);
@@ -324,12 +326,9 @@ class Pipeline {
     Array<Vec3> sample_points(&job_.memory);
     sample_points.reserve(samples_.size());
     for (std::int32_t v : samples_) sample_points.push_back(original_.view.points[std::size_t(v)]);
-    tetlod::remesh(surface_, sample_points, worker, job_, remeshed_, usual_points_at_once,
-                   [this] { measure_deviation(); });
-    report_.samples = std::int64_t(samples_.size()) - remeshed_.report.dropped_samples;
-    report_.steiner_points = remeshed_.report.steiner_points;
-    report_.remesh_attempts = remeshed_.report.attempts;
-    report_.worker_peak_bytes = remeshed_.report.worker_peak_bytes;
+    const auto meanwhile = [this] { measure_deviation(); };
+    tetlod::remesh(surface_, sample_points, worker, job_, remeshed_, usual_points_at_once, meanwhile, ladder_);
+    describe_remeshing(remeshed_.report, samples_.size(), report_);
   }
 
   void measure_deviation() {
@@ -364,6 +363,7 @@ class Pipeline {
   TetMesh &mesh_;
   Report &report_;
   Budget budget_;
+  Ladder ladder_ = Ladder::whole;
   std::string failure_;  // of the last remeshing, or, without one, of the first collapses
   Original &original_{prepared_.original};
   Boundary &boundary_{prepared_.boundary};

@@ -19,8 +19,9 @@ namespace tetlod {
 namespace {
 
 /// Long enough for a machine that is loaded, short enough to end an endless loop.
-double time_share(const RemeshInput &input) {
-  return std::max(10.0, 50 * expected_seconds(input.points.size() + input.insert.size()));
+double time_share(const RemeshInput &input, Ladder ladder) {
+  const double least = ladder == Ladder::whole ? 10 : 1;
+  return std::max(least, 50 * expected_seconds(input.points.size() + input.insert.size()));
 }
 
 /// How far a part has got when so many attempts are over: the first usually is the only one.
@@ -47,11 +48,14 @@ class Progress {
 /// A part on its way through the attempts.
 class Climb {
  public:
-  Climb(std::size_t part, const Surface &surface, Span<const Vec3> samples, std::int64_t components, Progress &progress,
-        Job &job)
-      : part_(part), problem_{surface, samples, box_of(surface.points), components, job}, progress_(progress) {}
-  Climb(std::size_t part, std::unique_ptr<RemeshPart> own, Progress &progress, Job &job)
-      : Climb(part, own->surface, own->samples, own->components, progress, job) {
+  Climb(std::size_t part, const Surface &surface, Span<const Vec3> samples, std::int64_t components, Ladder ladder,
+        Progress &progress, Job &job)
+      : part_(part),
+        problem_{surface, samples, box_of(surface.points), components, job},
+        ladder_(ladder),
+        progress_(progress) {}
+  Climb(std::size_t part, std::unique_ptr<RemeshPart> own, Ladder ladder, Progress &progress, Job &job)
+      : Climb(part, own->surface, own->samples, own->components, ladder, progress, job) {
     own_ = std::move(own);
   }
 
@@ -64,7 +68,7 @@ class Climb {
   bool begin(Worker &worker, std::size_t process) {
     const Span<const RemeshAttempt> all = remesh_attempts();
     while (next_ < all.size() && all[next_].about_samples && problem_.samples.empty()) next_++;
-    if (next_ == all.size()) return false;
+    if (next_ == all.size() || (next_ > 0 && ladder_ == Ladder::first_rung)) return false;
     const double from = progress_after(attempts_++), to = progress_after(attempts_);
     attempt_ = &all[next_++];
     input_.emplace(attempt_->input(problem_, progress_.set(part_, from)));
@@ -74,7 +78,7 @@ class Climb {
     request.insert = input_->insert;
     request.triangles = input_->triangles;
     request.progress = [this, from, to](double done) { return progress_.set(part_, from + (to - from) * done); };
-    worker.begin(process, request, time_share(*input_), problem_.job);
+    worker.begin(process, request, time_share(*input_, ladder_), problem_.job);
     return true;
   }
 
@@ -94,6 +98,7 @@ class Climb {
   std::size_t part_;
   std::unique_ptr<RemeshPart> own_;  // what the problem is of, unless that is the whole
   RemeshProblem problem_;
+  Ladder ladder_;
   Progress &progress_;
   const RemeshAttempt *attempt_ = nullptr;
   std::size_t next_ = 0;
@@ -106,11 +111,12 @@ class Climb {
 class Remeshing {
  public:
   Remeshing(const Surface &surface, const SurfaceFacts &facts, Span<const Vec3> samples, const RemeshParts &parts,
-            Worker &worker, Job &job)
+            Ladder ladder, Worker &worker, Job &job)
       : surface_(surface),
         facts_(facts),
         samples_(samples),
         parts_(parts),
+        ladder_(ladder),
         worker_(worker),
         job_(job),
         progress_(parts),
@@ -148,10 +154,10 @@ class Remeshing {
     const std::size_t part = waiting_.back();
     waiting_.pop_back();
     if (parts_.count() == 1)
-      climbs_[process] = std::make_unique<Climb>(part, surface_, samples_, facts_.components, progress_, job_);
+      climbs_[process] = std::make_unique<Climb>(part, surface_, samples_, facts_.components, ladder_, progress_, job_);
     else
       climbs_[process] =
-          std::make_unique<Climb>(part, std::make_unique<RemeshPart>(parts_.part(part)), progress_, job_);
+          std::make_unique<Climb>(part, std::make_unique<RemeshPart>(parts_.part(part)), ladder_, progress_, job_);
     climbs_[process]->begin(worker_, process);
   }
 
@@ -182,6 +188,7 @@ class Remeshing {
   const SurfaceFacts &facts_;
   Span<const Vec3> samples_;
   const RemeshParts &parts_;
+  Ladder ladder_;
   Worker &worker_;
   Job &job_;
   Progress progress_;
@@ -195,11 +202,11 @@ class Remeshing {
 }  // namespace
 
 void remesh(const Surface &surface, Span<const Vec3> samples, Worker &worker, Job &job, RemeshResult &result,
-            std::size_t points_at_once, const std::function<void()> &meanwhile) {
+            std::size_t points_at_once, const std::function<void()> &meanwhile, Ladder ladder) {
   check_samples(samples);
   const SurfaceFacts facts = check_surface(surface, job);
   const RemeshParts parts(surface, facts, samples, points_at_once, job);
-  result = Remeshing(surface, facts, samples, parts, worker, job).run(meanwhile);
+  result = Remeshing(surface, facts, samples, parts, ladder, worker, job).run(meanwhile);
 }
 
 }  // namespace tetlod

@@ -220,6 +220,21 @@ TEST_F(Remesh, EveryAttemptOfTheLadder) {
   ::unsetenv("FAKE_REMESH");
 }
 
+/// An endless loop of each attempt would take minutes.
+TEST_F(Remesh, TheFirstRungIsOneAttemptOfASecond) {
+  ::setenv("FAKE_REMESH", "spins", 1);
+  Worker endless(TETLOD_FAKE_REMESH);
+  const Surface surface = sphere(memory, 4);
+  try {
+    remesh(surface, no_samples(), endless, job, result, usual_points_at_once, {}, Ladder::first_rung);
+    ADD_FAILURE() << "it ended";
+  } catch (const Error &error) {
+    EXPECT_EQ(error.status(), Status::remesh);
+    EXPECT_NE(std::string(error.what()).find("(plain: took more than 1 seconds)"), std::string::npos) << error.what();
+  }
+  ::unsetenv("FAKE_REMESH");
+}
+
 TEST_F(Remesh, FailureLeavesTheResultAlone) {
   run(sphere(memory, 4), no_samples());
   const std::vector<Vec3> before(result.points.begin(), result.points.end());
