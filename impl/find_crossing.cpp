@@ -1,8 +1,8 @@
 #include "find_crossing.hpp"
 
 #include <array>
-#include <atomic>
 
+#include "first_culprit.hpp"
 #include "host_numbers.hpp"
 #include "kd_tree.hpp"
 #include "predicates.hpp"
@@ -40,23 +40,23 @@ std::pair<std::int32_t, std::int32_t> find_crossing(const Surface &surface, Job 
   KdTree tree(job.memory);
   tree.build(Array<Box>(boxes, &job.memory), 4, job, 1);
   const auto none = std::int32_t(boxes.size());
-  Array<std::int32_t> partner(boxes.size(), none, &job.memory);
-  std::atomic<std::int32_t> first{none};  // that crosses another, of those that are known
+  const auto first_partner = [&](std::size_t t) {
+    std::int32_t first = none;
+    tree.any_overlap(boxes[t], [&](std::int32_t other) {
+      if (other > std::int32_t(t) && other < first && cross(surface, std::int32_t(t), other)) first = other;
+      return false;
+    });
+    return first;
+  };
+  FirstCulprit culprit;
   job.parallel.for_blocks(boxes.size(), block, [&](std::size_t begin, std::size_t end) {
-    for (auto t = std::int32_t(begin); t < std::int32_t(end) && t < first; t++) {
+    for (std::size_t t = begin; t < end && t < culprit.index(); t++) {
       if (t % 8 == 0) job.poll(double(t) / double(boxes.size()));
-      std::int32_t &least = partner[std::size_t(t)];
-      tree.any_overlap(boxes[std::size_t(t)], [&](std::int32_t other) {
-        if (other > t && other < least && cross(surface, t, other)) least = other;
-        return false;
-      });
-      if (least == none) continue;
-      for (std::int32_t known = first; t < known && !first.compare_exchange_weak(known, t);) {
-      }
+      if (first_partner(t) != none) culprit.report(t);
     }
   });
-  if (first == none) return {-1, -1};
-  return {first, partner[std::size_t(first)]};
+  if (!culprit.any()) return {-1, -1};
+  return {std::int32_t(culprit.index()), first_partner(culprit.index())};
 }
 
 void refuse_crossing(const Surface &surface, std::int32_t index_base, Job &job) {

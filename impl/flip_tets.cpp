@@ -58,6 +58,7 @@ class FlipFinder {
   double least_gain(double old_error) const { return -1e-6 * (old_error + price_) - 1e-300; }
 
   bool remove_face(std::int32_t t, int k, Flip &flip) const {
+    if (2 * mesh_.error[std::size_t(t)] <= price_) return false;  // the other tet has no larger error
     if (!face_removal(t, k, flip)) return false;
     const double old_error = mesh_.error_of(flip.old);
     double best = least_gain(old_error);

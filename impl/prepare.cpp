@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "first_culprit.hpp"
 #include "geometry.hpp"
 #include "merge_points.hpp"
 #include "status.hpp"
@@ -100,22 +101,6 @@ void find_scales(const Input &input, const Ranges &ranges, Original &original) {
     original.view.scales.weighted[k] = sane_scale(relative * input.steering[k - 1].weight);
   }
 }
-
-/// Lowest tet that breaks a rule, over all blocks; deterministic because the lowest is.
-class FirstCulprit {
- public:
-  void report(std::size_t i) {
-    std::size_t now = first_.load();
-    while (i < now && !first_.compare_exchange_weak(now, i)) {
-    }
-  }
-  bool any() const { return first_.load() != none; }
-  std::size_t index() const { return first_.load(); }
-
- private:
-  static constexpr std::size_t none = std::size_t(-1);
-  std::atomic<std::size_t> first_{none};
-};
 
 void check_indices(const Input &input, Job &job) {
   const auto count = std::size_t(input.tets.tuples);

@@ -33,7 +33,7 @@ vtkUnstructuredGrid *simplify(vtkTetlodSimplify &filter, vtkUnstructuredGrid *or
   filter.SetInputData(original);
   const std::string field = steering_name(arguments.field, *original, notes);
   if (!field.empty()) filter.SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, field.c_str());
-  filter.ClearSteeringArrays();
+  filter.ClearSteeringArrays();  // their weights are known to be good; what they are is known now
   for (const auto &[name, weight] : arguments.steer)
     filter.AddSteeringArray(steering_name(name, *original, notes).c_str(), weight);
   filter.AddObserver(vtkCommand::ProgressEvent, &bar, &ProgressBar::on_progress);

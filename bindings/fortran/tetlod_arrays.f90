@@ -30,120 +30,110 @@ contains
     bytes = int(transfer(to, 0_c_intptr_t) - transfer(from, 0_c_intptr_t), c_int64_t)
   end function
 
-  function described(shape, first, next_component, next_tuple) result(array)
-    type(tetlod_array), intent(in) :: shape
-    type(c_ptr), intent(in) :: first, next_component, next_tuple
-    type(tetlod_array) :: array
-    array = shape
-    array%component_stride = distance(first, next_component)
-    array%tuple_stride = distance(first, next_tuple)
-    array%data = first
-  end function
-
-  ! Without elements: there is no address to give.
-  function shaped(type, components, tuples) result(array)
+  ! extents: of the array. ends: the first element, the next component, the next tuple; null without elements.
+  function described(type, extents, ends) result(array)
     integer(c_int32_t), intent(in) :: type
-    integer(c_int64_t), intent(in) :: components, tuples
+    integer(c_int64_t), intent(in) :: extents(:)
+    type(c_ptr), intent(in) :: ends(3)
     type(tetlod_array) :: array
     array = empty_array()
     array%type = type
-    array%components = int(min(components, int(huge(0_c_int32_t), c_int64_t)), c_int32_t)
-    array%tuples = tuples
-    array%data = c_null_ptr
+    array%data = ends(1)
+    array%component_stride = distance(ends(1), ends(2))
+    array%tuple_stride = distance(ends(1), ends(3))
+    if (size(extents) == 1) then
+      array%components = 1
+      array%tuples = extents(1)
+    else if (size(extents) == 2) then
+      array%components = int(min(extents(1), int(huge(0_c_int32_t), c_int64_t)), c_int32_t)
+      array%tuples = extents(2)
+    end if
+  end function
+
+  ! The number of the second element, or of the only one.
+  pure function second(extent)
+    integer(c_int64_t), intent(in) :: extent
+    integer(c_int64_t) :: second
+    second = min(2_c_int64_t, extent)
   end function
 
   function r32_array(a) result(array)
     real(real32), intent(in), target :: a(..)
     type(tetlod_array) :: array
-    integer(c_int64_t) :: k, n
-    array = shaped(TETLOD_FLOAT32, 0_c_int64_t, 0_c_int64_t)
+    type(c_ptr) :: ends(3)
+    integer(c_int64_t) :: n(rank(a))
+    n = shape(a, kind=c_int64_t)
+    ends = c_null_ptr
     select rank (a)
     rank (1)
-      n = size(a, kind=c_int64_t)
-      array = shaped(TETLOD_FLOAT32, 1_c_int64_t, n)
-      if (n > 0) array = described(array, c_loc(a(1)), c_loc(a(1)), c_loc(a(min(2_c_int64_t, n))))
+      if (n(1) > 0) ends = [c_loc(a(1)), c_loc(a(1)), c_loc(a(second(n(1))))]
     rank (2)
-      k = size(a, 1, kind=c_int64_t)
-      n = size(a, 2, kind=c_int64_t)
-      array = shaped(TETLOD_FLOAT32, k, n)
-      if (k > 0 .and. n > 0) array = described(array, c_loc(a(1, 1)), c_loc(a(min(2_c_int64_t, k), 1)), &
-        c_loc(a(1, min(2_c_int64_t, n))))
+      if (all(n > 0)) ends = [c_loc(a(1, 1)), c_loc(a(second(n(1)), 1)), c_loc(a(1, second(n(2))))]
     end select
+    array = described(TETLOD_FLOAT32, n, ends)
   end function
 
   function r64_array(a) result(array)
     real(real64), intent(in), target :: a(..)
     type(tetlod_array) :: array
-    integer(c_int64_t) :: k, n
-    array = shaped(TETLOD_FLOAT64, 0_c_int64_t, 0_c_int64_t)
+    type(c_ptr) :: ends(3)
+    integer(c_int64_t) :: n(rank(a))
+    n = shape(a, kind=c_int64_t)
+    ends = c_null_ptr
     select rank (a)
     rank (1)
-      n = size(a, kind=c_int64_t)
-      array = shaped(TETLOD_FLOAT64, 1_c_int64_t, n)
-      if (n > 0) array = described(array, c_loc(a(1)), c_loc(a(1)), c_loc(a(min(2_c_int64_t, n))))
+      if (n(1) > 0) ends = [c_loc(a(1)), c_loc(a(1)), c_loc(a(second(n(1))))]
     rank (2)
-      k = size(a, 1, kind=c_int64_t)
-      n = size(a, 2, kind=c_int64_t)
-      array = shaped(TETLOD_FLOAT64, k, n)
-      if (k > 0 .and. n > 0) array = described(array, c_loc(a(1, 1)), c_loc(a(min(2_c_int64_t, k), 1)), &
-        c_loc(a(1, min(2_c_int64_t, n))))
+      if (all(n > 0)) ends = [c_loc(a(1, 1)), c_loc(a(second(n(1)), 1)), c_loc(a(1, second(n(2))))]
     end select
+    array = described(TETLOD_FLOAT64, n, ends)
   end function
 
   function i8_array(a) result(array)
     integer(int8), intent(in), target :: a(..)
     type(tetlod_array) :: array
-    integer(c_int64_t) :: k, n
-    array = shaped(TETLOD_UINT8, 0_c_int64_t, 0_c_int64_t)
+    type(c_ptr) :: ends(3)
+    integer(c_int64_t) :: n(rank(a))
+    n = shape(a, kind=c_int64_t)
+    ends = c_null_ptr
     select rank (a)
     rank (1)
-      n = size(a, kind=c_int64_t)
-      array = shaped(TETLOD_UINT8, 1_c_int64_t, n)
-      if (n > 0) array = described(array, c_loc(a(1)), c_loc(a(1)), c_loc(a(min(2_c_int64_t, n))))
+      if (n(1) > 0) ends = [c_loc(a(1)), c_loc(a(1)), c_loc(a(second(n(1))))]
     rank (2)
-      k = size(a, 1, kind=c_int64_t)
-      n = size(a, 2, kind=c_int64_t)
-      array = shaped(TETLOD_UINT8, k, n)
-      if (k > 0 .and. n > 0) array = described(array, c_loc(a(1, 1)), c_loc(a(min(2_c_int64_t, k), 1)), &
-        c_loc(a(1, min(2_c_int64_t, n))))
+      if (all(n > 0)) ends = [c_loc(a(1, 1)), c_loc(a(second(n(1)), 1)), c_loc(a(1, second(n(2))))]
     end select
+    array = described(TETLOD_UINT8, n, ends)
   end function
 
   function i32_array(a) result(array)
     integer(int32), intent(in), target :: a(..)
     type(tetlod_array) :: array
-    integer(c_int64_t) :: k, n
-    array = shaped(TETLOD_INT32, 0_c_int64_t, 0_c_int64_t)
+    type(c_ptr) :: ends(3)
+    integer(c_int64_t) :: n(rank(a))
+    n = shape(a, kind=c_int64_t)
+    ends = c_null_ptr
     select rank (a)
     rank (1)
-      n = size(a, kind=c_int64_t)
-      array = shaped(TETLOD_INT32, 1_c_int64_t, n)
-      if (n > 0) array = described(array, c_loc(a(1)), c_loc(a(1)), c_loc(a(min(2_c_int64_t, n))))
+      if (n(1) > 0) ends = [c_loc(a(1)), c_loc(a(1)), c_loc(a(second(n(1))))]
     rank (2)
-      k = size(a, 1, kind=c_int64_t)
-      n = size(a, 2, kind=c_int64_t)
-      array = shaped(TETLOD_INT32, k, n)
-      if (k > 0 .and. n > 0) array = described(array, c_loc(a(1, 1)), c_loc(a(min(2_c_int64_t, k), 1)), &
-        c_loc(a(1, min(2_c_int64_t, n))))
+      if (all(n > 0)) ends = [c_loc(a(1, 1)), c_loc(a(second(n(1)), 1)), c_loc(a(1, second(n(2))))]
     end select
+    array = described(TETLOD_INT32, n, ends)
   end function
 
   function i64_array(a) result(array)
     integer(int64), intent(in), target :: a(..)
     type(tetlod_array) :: array
-    integer(c_int64_t) :: k, n
-    array = shaped(TETLOD_INT64, 0_c_int64_t, 0_c_int64_t)
+    type(c_ptr) :: ends(3)
+    integer(c_int64_t) :: n(rank(a))
+    n = shape(a, kind=c_int64_t)
+    ends = c_null_ptr
     select rank (a)
     rank (1)
-      n = size(a, kind=c_int64_t)
-      array = shaped(TETLOD_INT64, 1_c_int64_t, n)
-      if (n > 0) array = described(array, c_loc(a(1)), c_loc(a(1)), c_loc(a(min(2_c_int64_t, n))))
+      if (n(1) > 0) ends = [c_loc(a(1)), c_loc(a(1)), c_loc(a(second(n(1))))]
     rank (2)
-      k = size(a, 1, kind=c_int64_t)
-      n = size(a, 2, kind=c_int64_t)
-      array = shaped(TETLOD_INT64, k, n)
-      if (k > 0 .and. n > 0) array = described(array, c_loc(a(1, 1)), c_loc(a(min(2_c_int64_t, k), 1)), &
-        c_loc(a(1, min(2_c_int64_t, n))))
+      if (all(n > 0)) ends = [c_loc(a(1, 1)), c_loc(a(second(n(1)), 1)), c_loc(a(1, second(n(2))))]
     end select
+    array = described(TETLOD_INT64, n, ends)
   end function
 end module
