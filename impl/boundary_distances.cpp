@@ -1,6 +1,7 @@
 #include "boundary_distances.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -69,7 +70,7 @@ void BoundaryDistances::measure_middles() {
 }
 
 double BoundaryDistances::distance_of_middle(const Triangle &t) const {
-  return to_original_.nearest(Corners(mesh_.points, t).middle()).distance;
+  return to_original_.nearest(TriangleInSpace(mesh_.points, t).middle()).distance;
 }
 
 const Array<double> &BoundaryDistances::distances(Apart::Where where) const {
@@ -125,7 +126,7 @@ Aim BoundaryDistances::aim_near(const Vec3 &p) const {
   const NearestPoint nearest = to_original_.nearest(p);
   if (nearest.triangle < 0) return {p, Vec3(std::numeric_limits<double>::infinity()), {}, -1};
   const Triangle &t = original_.triangles[std::size_t(nearest.triangle)];
-  Aim aim{p, Corners(original_.points, t).at(nearest.weights), {}, -1};
+  Aim aim{p, TriangleInSpace(original_.points, t).at(nearest.weights), {}, -1};
   for (std::size_t field = 0; field < original_.fields; field++) aim.values.push(value_at(t, nearest.weights, field));
   return aim;
 }
@@ -156,8 +157,7 @@ BoundaryDistances::Home BoundaryDistances::home_among(Span<const Triangle> fresh
   const Vec3 &p = original_.points[std::size_t(sample)];
   Home home{sample, 0, std::numeric_limits<double>::infinity()};
   for (std::size_t i = 0; i < fresh.size(); i++) {
-    const Corners corners(mesh_.points, fresh[i]);
-    const double distance = glm::length(corners.at(corners.weights(p)) - p);
+    const double distance = std::sqrt(TriangleInSpace(mesh_.points, fresh[i]).distance2_to(p));
     if (distance < home.distance) home = {sample, i, distance};
   }
   return home;

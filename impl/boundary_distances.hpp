@@ -28,17 +28,6 @@ struct Aim {
   double distance() const { return glm::length(point - nearest); }
 };
 
-/// A triangle of the mesh in space.
-struct Corners {
-  Vec3 a, b, c;  ///< copies, as points may be added meanwhile
-  Corners(Span<const Vec3> points, const Triangle &t)
-      : a(points[std::size_t(t[0])]), b(points[std::size_t(t[1])]), c(points[std::size_t(t[2])]) {}
-  Vec3 middle() const { return (a + b + c) / 3.0; }
-  Vec3 at(const Vec3 &weights) const { return weights.x * a + weights.y * b + weights.z * c; }
-  /// Of what is nearest to p.
-  Vec3 weights(const Vec3 &p) const { return nearest_in_triangle(p, a, b, c); }
-};
-
 class BoundaryDistances {
  public:
   /// origin: as in lower_deviation.

@@ -42,17 +42,15 @@ double largest_distance(const Surface &from, const Surface &to, Samples samples,
   return largest2.empty() ? 0 : std::sqrt(*std::max_element(largest2.begin(), largest2.end()));
 }
 
-double distance2_to_spoke(const Star &star, std::size_t i, const Vec3 &p) {
-  const Vec3 &a = star.ring[i], &b = star.ring[star.after(i)];
-  const Vec3 w = nearest_in_triangle(p, star.centre, a, b);
-  return length2(w.x * star.centre + w.y * a + w.z * b - p);
+TriangleInSpace spoke_of(const Star &star, std::size_t i) {
+  return {star.centre, star.ring[i], star.ring[star.after(i)]};
 }
 
 /// A new triangle near enough to p, `first` before others; the star's size if there is none.
 std::size_t near_spoke(const Star &star, std::size_t first, const Vec3 &p, double limit2) {
   for (std::size_t i = 0; i < star.size(); i++) {
     const std::size_t spoke = (first + i) % star.size();
-    if (distance2_to_spoke(star, spoke, p) <= limit2) return spoke;
+    if (spoke_of(star, spoke).distance2_to(p) <= limit2) return spoke;
   }
   return star.size();
 }
@@ -86,8 +84,7 @@ bool DeviationLimit::is_passed(const Star &star) {
       homes_.push_back({s, star.spoke_face(spoke)});
     }
   for (std::size_t i = 0; i < star.size(); i++) {
-    const Vec3 &a = star.ring[i], &b = star.ring[star.after(i)];
-    if (is_far(0.5 * (star.centre + a)) || is_far((star.centre + a + b) / 3.0)) return true;
+    if (is_far(0.5 * (star.centre + star.ring[i])) || is_far(spoke_of(star, i).middle())) return true;
   }
   return false;
 }

@@ -40,6 +40,18 @@ inline double triangle_quality(const Vec3 &a, const Vec3 &b, const Vec3 &c) {
 /// The point of a triangle nearest to p, as barycentric weights.
 Vec3 nearest_in_triangle(const Vec3 &p, const Vec3 &a, const Vec3 &b, const Vec3 &c);
 
+/// Copies of a triangle's corners, as points may be added meanwhile.
+struct TriangleInSpace {
+  Vec3 a, b, c;
+  TriangleInSpace(const Vec3 &first, const Vec3 &second, const Vec3 &third) : a(first), b(second), c(third) {}
+  TriangleInSpace(Span<const Vec3> points, const Triangle &t)
+      : a(points[std::size_t(t[0])]), b(points[std::size_t(t[1])]), c(points[std::size_t(t[2])]) {}
+  Vec3 middle() const { return (a + b + c) / 3.0; }
+  Vec3 at(const Vec3 &weights) const { return weights.x * a + weights.y * b + weights.z * c; }
+  Vec3 weights_nearest_to(const Vec3 &p) const { return nearest_in_triangle(p, a, b, c); }
+  double distance2_to(const Vec3 &p) const { return length2(at(weights_nearest_to(p)) - p); }
+};
+
 /// Linear between the values at the ends, at the point of the edge nearest to x; never beyond them by rounding.
 inline double value_along_edge(const Vec3 &x, const Vec3 &from, const Vec3 &to, double value_from, double value_to) {
   const Vec3 edge = to - from;

@@ -96,8 +96,8 @@ class DeviationLowering {
   bool serve_sample(std::size_t sample, double limit) {
     if (distances_.home(sample) < 0) return false;
     const Triangle home = mesh_.boundary[std::size_t(distances_.home(sample))];
-    const Corners corners(mesh_.points, home);
-    const Vec3 to = original_.points[sample], w = corners.weights(to), from = corners.at(w);
+    const TriangleInSpace triangle(mesh_.points, home);
+    const Vec3 to = original_.points[sample], w = triangle.weights_nearest_to(to), from = triangle.at(w);
     FewVertices ends;
     for (std::size_t k = 0; k < 3; k++)
       if (w[int(k)] >= far_corner) ends.push(home[k]);
@@ -112,7 +112,7 @@ class DeviationLowering {
 
   /// Takes the middle of a triangle to the original's boundary, or else one of the corners as far.
   bool serve_middle(const Triangle t, double limit) {
-    const Vec3 from = Corners(mesh_.points, t).middle(), way = distances_.aim_near(from).nearest - from;
+    const Vec3 from = TriangleInSpace(mesh_.points, t).middle(), way = distances_.aim_near(from).nearest - from;
     FewVertices ends;
     for (std::int32_t v : t) ends.push(v);
     for (double part : parts_of_way)

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry.hpp"
 #include "ray.hpp"
 
 namespace tetlod {
@@ -25,16 +24,12 @@ TriangleTree::TriangleTree(Span<const Vec3> points, Span<const Triangle> triangl
 NearestPoint TriangleTree::nearest(const Vec3 &p) const {
   NearestPoint best;
   double distance2 = std::numeric_limits<double>::infinity();
-  Vec3 at;
-  best.triangle = tree_.nearest(p, distance2, [&](std::int32_t t) {
-    weights_in(t, p, at);
-    return length2(at - p);
-  });
+  best.triangle = tree_.nearest(p, distance2, [&](std::int32_t t) { return triangle(t).distance2_to(p); });
   if (best.triangle < 0) {  // so far away that squares leave the range of doubles
     best.distance = std::numeric_limits<double>::infinity();
     return best;
   }
-  best.weights = weights_in(best.triangle, p, at);
+  best.weights = triangle(best.triangle).weights_nearest_to(p);
   best.distance = std::sqrt(distance2);
   return best;
 }
@@ -42,10 +37,8 @@ NearestPoint TriangleTree::nearest(const Vec3 &p) const {
 double TriangleTree::larger_distance2(const Vec3 &p, double known) const {
   constexpr double no_more = -1;  // nothing is nearer, so that the search ends
   double distance2 = std::numeric_limits<double>::infinity();
-  Vec3 at;
   tree_.nearest(p, distance2, [&](std::int32_t t) {
-    weights_in(t, p, at);
-    const double found = length2(at - p);
+    const double found = triangle(t).distance2_to(p);
     return found > known ? found : no_more;
   });
   return std::max(distance2, known);
@@ -55,22 +48,12 @@ std::optional<int> TriangleTree::depth(const Vec3 &p, std::int32_t but) const {
   int depth = 0;
   const bool meets = !tree_.empty() && tree_.any_overlap(ray_to(p, tree_.box()), [&](std::int32_t t) {
     if (t == but) return false;
-    const Triangle &corner = triangles_[std::size_t(t)];
-    const RayEnd end = end_of_ray(points_[std::size_t(corner[0])], points_[std::size_t(corner[1])],
-                                  points_[std::size_t(corner[2])], p);
+    const TriangleInSpace met = triangle(t);
+    const RayEnd end = end_of_ray(met.a, met.b, met.c, p);
     depth += depth_gained(end);
     return end == RayEnd::at;
   });
   return meets ? std::nullopt : std::optional(depth);
-}
-
-Vec3 TriangleTree::weights_in(std::int32_t triangle, const Vec3 &p, Vec3 &at) const {
-  const Triangle &corner = triangles_[std::size_t(triangle)];
-  const Vec3 &a = points_[std::size_t(corner[0])], &b = points_[std::size_t(corner[1])],
-             &c = points_[std::size_t(corner[2])];
-  const Vec3 w = nearest_in_triangle(p, a, b, c);
-  at = w.x * a + w.y * b + w.z * c;
-  return w;
 }
 
 SurfaceDistance::SurfaceDistance(const Surface &surface, const SurfaceTopology &topology, std::int64_t leaf, Job &job)
@@ -92,9 +75,8 @@ SurfaceDistance::SurfaceDistance(const Surface &surface, const SurfaceTopology &
 }
 
 Vec3 SurfaceDistance::unit_normal(std::int32_t triangle) const {
-  const Triangle &v = surface_.triangles[std::size_t(triangle)];
-  const Vec3 normal = area_vector(surface_.points[std::size_t(v[0])], surface_.points[std::size_t(v[1])],
-                                  surface_.points[std::size_t(v[2])]);
+  const TriangleInSpace t(surface_.points, surface_.triangles[std::size_t(triangle)]);
+  const Vec3 normal = area_vector(t.a, t.b, t.c);
   const double length = glm::length(normal);
   return length > 0 ? normal / length : Vec3(0);
 }
@@ -125,9 +107,9 @@ bool SurfaceDistance::pseudonormal(const NearestPoint &at, Vec3 &normal) const {
 
 double SurfaceDistance::signed_distance(const Vec3 &p, NearestPoint &nearest) const {
   nearest = nearest_.nearest(p);
-  const Triangle &v = surface_.triangles[std::size_t(nearest.triangle)];
-  Vec3 at(0), normal;
-  for (int k = 0; k < 3; k++) at += nearest.weights[k] * surface_.points[std::size_t(v[std::size_t(k)])];
+  const TriangleInSpace triangle(surface_.points, surface_.triangles[std::size_t(nearest.triangle)]);
+  const Vec3 at = triangle.at(nearest.weights);
+  Vec3 normal;
   const bool inside = pseudonormal(nearest, normal) ? glm::dot(p - at, normal) < 0 : nearest_.depth(p) > 0;
   return inside ? nearest.distance : -nearest.distance;
 }

@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <optional>
 
+#include "geometry.hpp"
 #include "job.hpp"
 #include "kd_tree.hpp"
-#include "mesh.hpp"
 #include "surface_topology.hpp"
 
 namespace tetlod {
@@ -28,8 +28,7 @@ class TriangleTree {
   std::optional<int> depth(const Vec3 &p, std::int32_t but = -1) const;
 
  private:
-  /// Barycentric, of the point of a triangle that is nearest to p, which comes to be `at`.
-  Vec3 weights_in(std::int32_t triangle, const Vec3 &p, Vec3 &at) const;
+  TriangleInSpace triangle(std::int32_t t) const { return {points_, triangles_[std::size_t(t)]}; }
 
   Span<const Vec3> points_;
   Span<const Triangle> triangles_;
