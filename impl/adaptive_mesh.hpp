@@ -32,8 +32,9 @@ class AdaptiveMesh : public TetComplex {
   Array<double> error;      ///< of each tet: the sum of squares at its probes
   Array<Probe<m>> probes;   ///< first those at original vertices
   std::size_t vertex_probes = 0;
-  Array<std::int32_t> vertex_of_probe;  ///< the original vertex of each of those
-  Array<std::uint8_t> outside;          ///< of each: it lies outside, the probe on the boundary; empty: none does
+  std::size_t left_out = 0, vertices_left_out = 0;  ///< probes in no tet, and those at original vertices among them
+  Array<std::int32_t> vertex_of_probe;              ///< the original vertex of each of those
+  Array<std::uint8_t> outside;  ///< of each: it lies outside, the probe on the boundary; empty: none does
   Array<std::int32_t> first_probe, next_probe;  ///< lists of the probes in each tet, ended by -1
 
   /// Finds the neighbours of `tets`, which has no free slot yet; all else of a tet is empty.

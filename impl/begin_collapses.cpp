@@ -25,7 +25,7 @@ void keep(Span<const std::uint8_t> flags, Span<const std::int32_t> origin, Array
 template <std::size_t m>
 SolidMesh<m> mesh_of(const MeshView &original, const Boundary &boundary, const SolidOptions &options,
                      const Values<m> &scales, Job &job) {
-  SolidMesh<m> mesh(put_in_order(original, boundary, job), original.values<m>(), scales, job);
+  SolidMesh<m> mesh(put_in_order(original, boundary, job), original.values<m>(), scales, options.planes, job);
   keep(options.kept, mesh.origin, mesh.ranks);
   keep(options.restored, mesh.origin, mesh.ranks);
   for_flagged(options.touching, mesh.origin, [&](std::size_t v) { mesh.ranks[v] = Rank::touching; });
@@ -101,7 +101,7 @@ template <std::size_t m>
 CollapseStart<m> begin_collapses(const MeshView &original, const Boundary &boundary, const FieldsAsLengths<m> &fields,
                                  const SolidOptions &options, SolidHistory &history, Job &job) {
   if (!options.restored.empty()) history.forget(job.memory);  // of what does not know them, to make room
-  const bool keeps_states = options.max_deviation <= 0 && options.restored.empty() &&
+  const bool keeps_states = options.max_deviation <= 0 && options.restored.empty() && options.planes == 1 &&
                             options.careful_from < std::int64_t(original.tets.size());
   if (keeps_states && history.is_earlier()) {
     if (auto start = warm_start(original, boundary, fields, options, history, job)) return std::move(*start);

@@ -73,6 +73,10 @@ constexpr double spare = 0.05;
 constexpr int most_rounds = 6, most_restorations = 4;
 /// What is beyond the size by more misses it.
 constexpr double most_excess = 1.03;
+inline bool meets_size(const Budget &budget, const TetMesh &mesh) {
+  return double(mesh.tets.size()) <= most_excess * double(budget.tets);
+}
+
 /// What the field's range counts as beside the diagonal, when the boundary is decimated: more costs geometry, and gains
 /// where a large share of the vertices is on the boundary.
 constexpr double field_weight = 0.3;

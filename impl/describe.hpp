@@ -2,6 +2,7 @@
 #pragma once
 #include <string>
 
+#include "decimate_solid_and_check.hpp"
 #include "pipeline.hpp"
 #include "prepare.hpp"
 #include "refine.hpp"
@@ -58,8 +59,11 @@ inline void describe_remeshing(const RemeshReport &remeshed, std::size_t samples
 }
 
 /// By collapses alone, whatever was tried before.
-inline void describe_collapses(std::int64_t points_left, Report &report) {
-  report.samples = report.selected_samples = points_left - report.boundary_points_out;
+inline void describe_collapses(const CoarseSolid &coarse, const Original &original, Report &report) {
+  describe_simplified_boundary(coarse.topology, report);
+  report.max_deviation = coarse.deviation / original.box.diagonal();
+  const auto points = std::int64_t(coarse.mesh.points.size());
+  report.samples = report.selected_samples = points - report.boundary_points_out;
   report.samples_outside = report.samples_too_near = report.steiner_points = report.reused_samples = 0;
   report.cleaned_edges = report.reused_triangles = report.boundary_retries = report.remesh_attempts = 0;
   report.worker_peak_bytes = 0;

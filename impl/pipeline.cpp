@@ -1,56 +1,32 @@
 #include "pipeline.hpp"
 
 #include <chrono>
+#include <limits>
 
+#include "attempts.hpp"
+#include "beginning.hpp"
 #include "beside.hpp"
 #include "carry_fields.hpp"
 #include "cull_samples.hpp"
 #include "decimate_solid_and_check.hpp"
 #include "describe.hpp"
 #include "footprint.hpp"
-#include "geometry.hpp"
 #include "hash.hpp"
 #include "kept_vertices.hpp"
-#include "least_change.hpp"
 #include "nested_solids.hpp"
-#include "prepared.hpp"
 #include "reconstruct_field.hpp"
 #include "refine.hpp"
-#include "select_samples.hpp"
-#include "stage_timer.hpp"
 #include "status.hpp"
 #include "surface_topology.hpp"
-#include "validate.hpp"
 
 namespace tetlod {
 
 namespace {
 
-class Pipeline {
+class Pipeline : private Beginning {
  public:
   Pipeline(const Input &input, const Options &options, Prepared &prepared, Job &job, Result &result)
-      : input_(input),
-        options_(options),
-        prepared_(prepared),
-        job_(job),
-        result_(result),
-        mesh_(result.mesh),
-        report_(result.report) {}
-
-  /// What needs neither decimation nor remeshing.
-  void begin() {
-    prepare();
-    extract();
-    if (options_.max_error > 0) refuse_lost_fields(input_, original_);
-    budget_.sigma = options_.sigma;
-    if (as_published(options_))
-      sample();
-    else
-      plan();
-  }
-
-  /// After begin().
-  Outlook outlook() { return outlook_of(original_, boundary_, selected_, options_, budget_, report_, job_); }
+      : Beginning(input, options, prepared, job, result), mesh_(result.mesh) {}
 
   void run(Worker &worker) {
     if (as_published(options_) && !options_.remesh)
@@ -93,6 +69,7 @@ class Pipeline {
     for (const Budget budget = budget_;; budget_ = budget) {
       const bool collapsed = coarsen(worker);
       refine(collapsed);
+      if (collapsed) weigh_planes_otherwise();
       if (beyond_.empty()) return !has_grown() || is_whole(budget_, options_, report_);
       if (!collapsed || kept_.restorations() == most_restorations) return false;
       kept_.restore(beyond_, original_.view.points.size());
@@ -110,7 +87,6 @@ class Pipeline {
   bool coarsen(Worker &worker) {
     CoarseSolid coarse(job_.memory);
     mesh_.tets.clear();
-    report_.reused_collapses = 0;
     if (collapses_edges(options_, report_)) {
       bool reached = collapse_edges(false, coarse);
       ladder_ = coarse.is_sound ? Ladder::first_rung : Ladder::whole;
@@ -125,8 +101,27 @@ class Pipeline {
       throw Error(Status::remesh, failure_);
     }
     const bool collapsed = coarse.is_sound && (mesh_.tets.empty() || coarse.mesh.tets.size() < mesh_.tets.size());
+    report_.reused_collapses = coarse.reused;
     if (collapsed) take_over(std::move(coarse));
     return collapsed;
+  }
+
+  /// Further attempts of a small mesh; the best of all is kept.
+  void weigh_planes_otherwise() {
+    Outcome best{std::move(mesh_), report_, score_};
+    for (double planes : weights_of_attempts(budget_, options_, report_)) {
+      SolidOptions options = collapse_options();
+      options.planes = planes;
+      SolidHistory none(job_.memory);
+      CoarseSolid coarse = collapse(options, none);
+      if (!coarse.wrong.empty()) continue;
+      take_over(std::move(coarse));
+      refine(true);
+      if (score_ < best.score) best = {std::move(mesh_), report_, score_};
+    }
+    mesh_ = std::move(best.mesh);
+    best.report.seconds = report_.seconds;
+    report_ = best.report;
   }
 
   /// False: to too many tets, or, as TetGen finds no way, to none.
@@ -140,22 +135,17 @@ class Pipeline {
       return false;
     }
     reconstruct_field();
-    return double(mesh_.tets.size()) <= most_excess * double(budget_.tets);
+    return meets_size(budget_, mesh_);
   }
 
   /// To the budget, or to what suits the bound, where that betters `best`. False: to no sound mesh of the size.
   bool collapse_edges(bool gives_way, CoarseSolid &best) {
     describe_boundary(prepared_.topology(job_), report_);
-    const StageTimer timer(Stage::decimate, job_, report_);
-    const CollapseSizes sizes = collapse_sizes(budget_, options_, report_);
-    const bool bound = options_.max_error > 0, hasty = is_hasty(options_, report_);
-    SolidOptions options{sizes.tets, budget_.enough,      budget_.dearest, deviation_limit(), hasty, bound,
-                         gives_way,  options_.warm_start, kept_.by_host(), kept_.restored(),  {}};
-    SolidHistory &history = prepared_.history(bound, hasty, options_.warm_start > 0, job_);
-    options.later = job_.memory.in_use() + bytes_to_refine(original_.view, sizes.tets, rounds_of(options_, report_));
+    SolidOptions options = collapse_options();
+    options.gives_way = gives_way;
+    SolidHistory &history = prepared_.history(options.holds_bound, options.hasty, options.warm_start > 0, job_);
     options.one_of_many = report_.reused_tets > 0 && history.is_repeated();
-    const OriginalSolid original{original_.view, boundary_, prepared_.surface(job_), prepared_.topology(job_)};
-    CoarseSolid coarse = decimate_solid_and_check(original, options, sizes.lowered, history, job_);
+    CoarseSolid coarse = collapse(options, history);
     const std::string failure = coarse.wrong.empty() ? "" : "edges collapsed in vain: " + coarse.wrong;
     if (is_better(coarse, best)) best = std::move(coarse);
     if (failure.empty()) return true;
@@ -164,15 +154,34 @@ class Pipeline {
     return false;
   }
 
+  SolidOptions collapse_options() const {
+    SolidOptions options;
+    options.tets = collapse_sizes(budget_, options_, report_).tets;
+    options.enough = budget_.enough;
+    options.dearest = budget_.dearest;
+    options.max_deviation = deviation_limit();
+    options.hasty = is_hasty(options_, report_);
+    options.holds_bound = options_.max_error > 0;
+    options.warm_start = options_.warm_start;
+    options.kept = kept_.by_host();
+    options.restored = kept_.restored();
+    options.later = job_.memory.in_use() + bytes_to_refine(original_.view, options.tets, rounds_of(options_, report_));
+    return options;
+  }
+
+  CoarseSolid collapse(const SolidOptions &options, SolidHistory &history) {
+    const StageTimer timer(Stage::decimate, job_, report_);
+    const OriginalSolid original{original_.view, boundary_, prepared_.surface(job_), prepared_.topology(job_)};
+    const std::int64_t lowered = collapse_sizes(budget_, options_, report_).lowered;
+    return decimate_solid_and_check(original, options, lowered, history, job_);
+  }
+
   void take_over(CoarseSolid &&coarse) {
+    describe_collapses(coarse, original_, report_);
     mesh_ = std::move(coarse.mesh);
     if (budget_.enough > 0) budget_.tets = std::int64_t(mesh_.tets.size());
     origin_ = std::move(coarse.origin);
     topology_ = std::move(coarse.topology);
-    report_.reused_collapses = coarse.reused;
-    report_.max_deviation = coarse.deviation / original_.box.diagonal();
-    describe_simplified_boundary(topology_, report_);
-    describe_collapses(std::int64_t(mesh_.points.size()), report_);
   }
 
   double deviation_limit() const { return options_.max_deviation * original_.box.diagonal(); }
@@ -218,6 +227,7 @@ class Pipeline {
     if (bound > 0 || !collapsed || !is_the_original(mesh_, origin_, report_))
       refined = tetlod::refine(original_.view, options, job_, mesh_);
     describe_refinement(refined, original_, report_);
+    score_ = meets_size(budget_, mesh_) ? score_of(refined, report_) : std::numeric_limits<double>::infinity();
     beyond_ = std::move(refined.beyond_bound);
   }
 
@@ -244,33 +254,6 @@ class Pipeline {
     refuse_nested_solids(prepared_.surface(job_), prepared_.topology(job_), input_.index_base, job_);
   }
 
-  void prepare() {
-    const StageTimer timer(Stage::prepare, job_, report_);
-    result_.original = fingerprint_of_mesh(input_, job_);
-    if (prepared_.renew(result_.original, input_, options_, job_)) {
-      report_.reused_tets = input_.tets.tuples;
-    } else {
-      if (any_strict_policy(options_)) refuse_defects(find_defects(input_, options_, job_), options_);
-      prepare_original(input_, options_, job_, original_);
-    }
-  }
-
-  void extract() {
-    const StageTimer timer(Stage::boundary, job_, report_);
-    if (!report_.reused_tets) {
-      extract_boundary(original_.view, job_, boundary_, original_.numbers());
-      drop_excluded(input_, job_, boundary_, original_);
-    }
-    prepared_.complete();
-    describe_input(input_, original_, report_);
-    describe_extraction(boundary_, report_);
-  }
-
-  void plan() {
-    report_.least_change = least_change(original_.view);
-    budget_ = first_budget(options_, original_.box.diagonal(), report_);
-  }
-
   void decimate(double sigma) {
     const StageTimer timer(Stage::decimate, job_, report_);
     describe_boundary(prepared_.topology(job_), report_);
@@ -288,25 +271,12 @@ class Pipeline {
     report_.reused_triangles = decimated.reused ? report_.boundary_triangles_out : 0;
   }
 
-  void sample() {
-    sample_by([this] { select(); });
-  }
-
   /// Neither needs the other.
   void decimate_and_sample() {
     Beside sampling(job_, [this] { select(); });
     decimate(budget_.sigma);
     sample_by([&] { sampling.finish(); });
   }
-
-  template <class Sampling>
-  void sample_by(const Sampling &sampling) {
-    const StageTimer timer(Stage::sample, job_, report_);
-    sampling();
-    report_.selected_samples = std::int64_t(selected_.size());
-  }
-
-  void select() { select_samples(original_, boundary_, options_, budget_.samples, job_, selected_); }
 
   void cull() {
     const StageTimer timer(Stage::cull, job_, report_);
@@ -355,22 +325,13 @@ class Pipeline {
     split_fields(input_, job_, result_);
   }
 
-  const Input &input_;
-  const Options &options_;
-  Prepared &prepared_;
-  Job &job_;
-  Result &result_;
   TetMesh &mesh_;
-  Report &report_;
-  Budget budget_;
+  double score_ = 0;  // of the last refinement
   Ladder ladder_ = Ladder::whole;
-  std::string failure_;  // of the last remeshing, or, without one, of the first collapses
-  Original &original_{prepared_.original};
-  Boundary &boundary_{prepared_.boundary};
-  Surface surface_{job_.memory};                // the simplified boundary
-  SurfaceTopology topology_{job_.memory};       // of the simplified boundary
-  Array<std::int32_t> selected_{&job_.memory};  // by sampling
-  Array<std::int32_t> samples_{&job_.memory};   // after culling
+  std::string failure_;                        // of the last remeshing, or, without one, of the first collapses
+  Surface surface_{job_.memory};               // the simplified boundary
+  SurfaceTopology topology_{job_.memory};      // of the simplified boundary
+  Array<std::int32_t> samples_{&job_.memory};  // after culling
   RemeshResult remeshed_{job_.memory};
   KeptVertices kept_{original_.flags, job_.memory};
   Array<std::int32_t> beyond_{&job_.memory};  // the bound: original vertices, after the last refinement
@@ -385,16 +346,6 @@ void run(const Input &input, const Options &options, Worker &worker, Prepared &p
   result.report.hash = hash_of(result.mesh);
   result.report.peak_bytes = job.memory.peak();
   result.report.seconds_total = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
-
-std::uint64_t estimate_memory(const Input &input, const Options &options, Prepared &prepared, Job &job) {
-  job.memory.reset_peak();
-  Result result(job.memory);
-  Pipeline pipeline(input, options, prepared, job, result);
-  pipeline.begin();
-  const double in_use = double(job.memory.in_use());
-  const double later = in_use + expected_bytes(pipeline.outlook(), input);
-  return std::max(std::uint64_t(job.memory.peak()), std::uint64_t(later));
 }
 
 }  // namespace tetlod

@@ -63,6 +63,8 @@ class Refinement {
       use_up_tets();
     }
     report_.max_error = largest_error(mesh_, job_).value;
+    report_.mean_square = mesh_.total_error() / double(mesh_.probes.size() - mesh_.left_out);
+    report_.outside = double(mesh_.vertices_left_out) / double(mesh_.vertex_probes);
     count_points();
     write();
     return std::move(report_);

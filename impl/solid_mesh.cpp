@@ -19,7 +19,8 @@ FieldsAsLengths<m>::FieldsAsLengths(const MeshView &original, double diagonal, J
 }
 
 template <std::size_t m>
-SolidMesh<m>::SolidMesh(SolidInOrder solid, Span<const Values<m>> values, const Values<m> &scales, Job &job)
+SolidMesh<m>::SolidMesh(SolidInOrder solid, Span<const Values<m>> values, const Values<m> &scales, double planes,
+                        Job &job)
     : SolidComplex(std::move(solid), job),
       origin(std::move(solid.origin)),
       lengths_(array_of(points.size(), Vector<m>(), job)),
@@ -27,7 +28,7 @@ SolidMesh<m>::SolidMesh(SolidInOrder solid, Span<const Values<m>> values, const 
   for_each(points.size(), job, [&](std::size_t v) {
     for (std::size_t i = 0; i < m; i++) lengths_[v][i] = scales[i] * values[std::size_t(origin[v])][i];
   });
-  find_quadrics(job);
+  find_quadrics(planes, job);
 }
 
 template <std::size_t m>
@@ -59,10 +60,10 @@ SolidRemains<m> SolidMesh<m>::take_remains(Span<const std::int32_t> number, Job 
 }
 
 template <std::size_t m>
-void SolidMesh<m>::find_quadrics(Job &job) {
+void SolidMesh<m>::find_quadrics(double planes, Job &job) {
   job.parallel.for_parts(points.size(),
                          [&](std::size_t, std::size_t begin, std::size_t end) { add_tets(begin, end, job); });
-  measures.weight_of_planes = weigh_planes(*this, job);
+  measures.weight_of_planes = planes * weigh_planes(*this, job);
   for_each(points.size(), job, [&](std::size_t v) {
     for (std::int32_t t : triangles_of.of(std::int32_t(v)))
       quadrics_[v].add_plane(normal(t), measures.weight_of_planes);

@@ -91,8 +91,9 @@ class SolidMesh : public SolidComplex {
   using Place = Vector<3 + m>;
   using Quadric = LocalQuadric<3 + m>;
 
-  /// values: of the original vertices; scales: the length that a unit of each field counts as.
-  SolidMesh(SolidInOrder solid, Span<const Values<m>> values, const Values<m> &scales, Job &job);
+  /// values: of the original vertices; scales: the length that a unit of each field counts as; planes: of the boundary,
+  /// what they weigh, of weigh_planes().
+  SolidMesh(SolidInOrder solid, Span<const Values<m>> values, const Values<m> &scales, double planes, Job &job);
   SolidMesh(SolidRemains<m> &&remains, Job &job);
 
   /// What is left, taken out of the mesh, which is of no use after that. number: numbers_of(left).
@@ -149,7 +150,7 @@ class SolidMesh : public SolidComplex {
   /// The entry of a quadric that counts the tets a vertex stands for.
   static constexpr std::size_t tets_of_vertex = entry_of(3, 3);
 
-  void find_quadrics(Job &job);
+  void find_quadrics(double planes, Job &job);
   void add_tets(std::size_t begin, std::size_t end, Job &job);
 
   Array<Vector<m>> lengths_;

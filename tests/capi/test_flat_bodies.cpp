@@ -34,8 +34,8 @@ TEST_F(FlatBody, ReachesAnySize) {
 
 /// Which loses less, on the whole.
 TEST_F(FlatBody, IsRemeshedBeforeItsFoldsGetSharper) {
-  EXPECT_GT(run(0.02, 0.1, 1).remesh_attempts, 0);
-  EXPECT_EQ(run(0.02, 0.1, 0).remesh_attempts, 0);
+  EXPECT_GT(run(0.01, 0.07, 1).remesh_attempts, 0);
+  EXPECT_EQ(run(0.01, 0.07, 0).remesh_attempts, 0);
 }
 
 }  // namespace

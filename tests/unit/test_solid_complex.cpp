@@ -86,7 +86,7 @@ TEST_F(SolidAround, RemovalsCostTheErrorsOfTheFunctionsAround) {
   start_with(mesh);
   const FieldsAsLengths<1> fields(original.view(), 1, host.job);
   const SolidMesh<1> solid(put_in_order(original.view(), boundary, host.job), original.view().values<1>(),
-                           fields.scales, host.job);
+                           fields.scales, 1, host.job);
   Neighbours neighbours(host.memory);
   std::size_t removals = 0;
   for (std::int32_t v = 0; v < std::int32_t(solid.points.size()); v++) {

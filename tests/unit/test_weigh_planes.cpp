@@ -12,7 +12,7 @@ class WeighPlanes : public DecimateSolid {
     start_with(mesh);
     const FieldsAsLengths<1> fields(original.view(), box_of(original.view().points).diagonal(), host.job);
     const SolidMesh<1> solid(put_in_order(original.view(), boundary, host.job), original.view().values<1>(),
-                             fields.scales, host.job);
+                             fields.scales, 1, host.job);
     return solid.measures.weight_of_planes;
   }
 
@@ -44,7 +44,7 @@ TEST_F(WeighPlanes, HoldsUnevenWallsLessTheLessTheFieldChanges) {
 TEST_F(WeighPlanes, DependsLittleOnTheResolution) {
   const auto per_share = [&](int n) {
     const double inside = std::pow((n - 1.0) / (n + 1.0), 3);
-    return weight_of_cube(n, 0.1, waves) / (1 + std::pow(0.5 / (1 - inside), 4));
+    return weight_of_cube(n, 0.1, waves) / (1 + std::pow(0.7 / (1 - inside), 5));
   };
   EXPECT_NEAR(per_share(24) / per_share(12), 1, 0.3);
 }
@@ -57,6 +57,28 @@ TEST_F(WeighPlanes, DependsOnNeitherUnitNorPlace) {
   transform(mesh, [](const Vec3 &p) { return 1024.0 * Vec3(p.y, p.z, p.x); });
   set_scalars(mesh, [](const Vec3 &p) { return 7 + 3 * waves(Vec3(p.z, p.x, p.y) / 1024.0); });
   EXPECT_NEAR(weight_of(mesh) / weight, 1, 1e-9);
+}
+
+/// Its quadrics are others.
+TEST_F(DecimateSolid, WherePlanesWeighElseNoStatesComeAndGo) {
+  Mesh mesh = kuhn_cube(12);
+  set_scalars(mesh, waves);
+  start_with(mesh);
+  SolidHistory history(host.memory);
+  CoarseSolid alone(host.memory), first(host.memory), later(host.memory), again(host.memory);
+  options.planes = 0.3;
+  decimate(0.05, host, alone);
+  decimate(0.05, host, history, first);
+  EXPECT_TRUE(history.states<1>(host.memory).empty());
+  options.planes = 1;
+  decimate(0.05, host, history, later);
+  EXPECT_NE(later.mesh.points, alone.mesh.points);
+  EXPECT_EQ(later.reused, 0);
+  ASSERT_FALSE(history.states<1>(host.memory).empty());
+  options.planes = 0.3;
+  decimate(0.05, host, history, again);
+  EXPECT_EQ(again.reused, 0);
+  expect_same(again.mesh, alone.mesh);
 }
 
 }  // namespace

@@ -1,0 +1,37 @@
+// Past the paper: a small mesh comes out by chance, so that there are several attempts, of which the best is kept. They
+// differ in what the boundary's planes weigh where edges collapse.
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "budget.hpp"
+#include "refine.hpp"
+
+namespace tetlod {
+
+/// Of an attempt.
+struct Outcome {
+  TetMesh mesh;
+  Report report;
+  double score;  ///< the less, the better
+};
+
+/// Of the further attempts, what planes weigh of what they do usually. All take no longer than one on a mesh of so many
+/// tets, about.
+inline Span<const double> weights_of_attempts(const Budget &budget, const Options &options, const Report &report) {
+  static constexpr double weights[] = {0.55, 1.8, 0.3, 3.3, 0.15, 6};
+  constexpr std::int64_t tets_of_all = 30000;
+  if (options.effort != effort_accurate || options.max_error > 0 || keeps_all(budget, report)) return {};
+  return {weights, std::min(std::size(weights), std::size_t(tets_of_all / report.tets_in))};
+}
+
+/// The error counts, and a little what planes that weigh less cost: the boundary's distance, and vertices outside of
+/// it. By experience.
+inline double score_of(const RefineReport &refined, const Report &report) {
+  constexpr double usual_deviation = 0.002, power_of_deviation = 0.2, usual_outside = 0.05, power_of_outside = 0.3;
+  return std::sqrt(refined.mean_square) * std::pow(report.max_deviation + usual_deviation, power_of_deviation) *
+         std::pow(refined.outside + usual_outside, power_of_outside);
+}
+
+}  // namespace tetlod

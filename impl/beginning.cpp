@@ -1,0 +1,71 @@
+#include "beginning.hpp"
+
+#include "describe.hpp"
+#include "footprint.hpp"
+#include "least_change.hpp"
+#include "select_samples.hpp"
+#include "validate.hpp"
+
+namespace tetlod {
+
+void Beginning::begin() {
+  prepare();
+  extract();
+  if (options_.max_error > 0) refuse_lost_fields(input_, original_);
+  budget_.sigma = options_.sigma;
+  if (as_published(options_)) return sample();
+  report_.least_change = least_change(original_.view);
+  budget_ = first_budget(options_, original_.box.diagonal(), report_);
+}
+
+void Beginning::prepare() {
+  const StageTimer timer(Stage::prepare, job_, report_);
+  result_.original = fingerprint_of_mesh(input_, job_);
+  if (prepared_.renew(result_.original, input_, options_, job_)) {
+    report_.reused_tets = input_.tets.tuples;
+  } else {
+    if (any_strict_policy(options_)) refuse_defects(find_defects(input_, options_, job_), options_);
+    prepare_original(input_, options_, job_, original_);
+  }
+}
+
+void Beginning::extract() {
+  const StageTimer timer(Stage::boundary, job_, report_);
+  if (!report_.reused_tets) {
+    extract_boundary(original_.view, job_, boundary_, original_.numbers());
+    drop_excluded(input_, job_, boundary_, original_);
+  }
+  prepared_.complete();
+  describe_input(input_, original_, report_);
+  describe_extraction(boundary_, report_);
+}
+
+void Beginning::sample() {
+  sample_by([this] { select(); });
+}
+
+void Beginning::select() { select_samples(original_, boundary_, options_, budget_.samples, job_, selected_); }
+
+namespace {
+
+class Estimate : public Beginning {
+ public:
+  using Beginning::Beginning;
+  double bytes_to_come() {
+    begin();
+    return expected_bytes(outlook_of(original_, boundary_, selected_, options_, budget_, report_, job_), input_);
+  }
+};
+
+}  // namespace
+
+std::uint64_t estimate_memory(const Input &input, const Options &options, Prepared &prepared, Job &job) {
+  job.memory.reset_peak();
+  Result result(job.memory);
+  Estimate estimate(input, options, prepared, job, result);
+  const double to_come = estimate.bytes_to_come();
+  const double later = double(job.memory.in_use()) + to_come;
+  return std::max(std::uint64_t(job.memory.peak()), std::uint64_t(later));
+}
+
+}  // namespace tetlod

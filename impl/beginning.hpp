@@ -1,0 +1,43 @@
+// The first stages of a run, the cheap ones: what needs neither decimation nor remeshing.
+#pragma once
+#include "budget.hpp"
+#include "prepared.hpp"
+#include "stage_timer.hpp"
+
+namespace tetlod {
+
+class Beginning {
+ public:
+  Beginning(const Input &input, const Options &options, Prepared &prepared, Job &job, Result &result)
+      : input_(input), options_(options), prepared_(prepared), job_(job), result_(result), report_(result.report) {}
+
+  void begin();
+
+ protected:
+  void sample();
+  void select();
+
+  template <class Sampling>
+  void sample_by(const Sampling &sampling) {
+    const StageTimer timer(Stage::sample, job_, report_);
+    sampling();
+    report_.selected_samples = std::int64_t(selected_.size());
+  }
+
+  const Input &input_;
+  const Options &options_;
+  Prepared &prepared_;
+  Job &job_;
+  Result &result_;
+  Report &report_;
+  Budget budget_;
+  Original &original_{prepared_.original};
+  Boundary &boundary_{prepared_.boundary};
+  Array<std::int32_t> selected_{&job_.memory};  // by sampling
+
+ private:
+  void prepare();
+  void extract();
+};
+
+}  // namespace tetlod

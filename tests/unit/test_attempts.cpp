@@ -1,0 +1,112 @@
+// Further attempts of small meshes: how many there are, what the best is, and that it is better than the first.
+#include "attempts.hpp"
+#include "beginning.hpp"
+#include "decimate_solid_and_check.hpp"
+#include "whole_run.hpp"
+
+namespace tetlod {
+namespace {
+
+using namespace test;
+
+Report report_of(std::int64_t tets) {
+  Report report;
+  report.tets_in = tets;
+  return report;
+}
+
+std::size_t attempts(std::int64_t tets, const Options &options) {
+  Budget budget;
+  budget.tets = std::int64_t(options.target_ratio * double(tets));
+  return weights_of_attempts(budget, options, report_of(tets)).size();
+}
+
+TEST(Attempts, AreMadeOfSmallMeshesForAccuracyAlone) {
+  Options options;
+  options.target_ratio = 0.1;
+  EXPECT_EQ(attempts(10, options), 6U);
+  EXPECT_EQ(attempts(10000, options), 3U);
+  EXPECT_EQ(attempts(30000, options), 1U);
+  EXPECT_EQ(attempts(30001, options), 0U);
+  options.target_ratio = 1;
+  EXPECT_EQ(attempts(10, options), 0U);
+  options.target_ratio = 0.1;
+  Options fast = options, bound = options;
+  fast.effort = effort_fast;
+  bound.max_error = 0.1;
+  for (const Options &other : {fast, bound}) EXPECT_EQ(attempts(10, other), 0U);
+}
+
+TEST(Attempts, TheBestHasTheLeastOfAll) {
+  Host host;
+  RefineReport usual(host.memory);
+  usual.mean_square = 0.01;
+  usual.outside = 0.2;
+  Report report;
+  report.max_deviation = 0.01;
+  const double score = score_of(usual, report);
+  RefineReport other = usual;
+  other.mean_square *= 0.9;
+  EXPECT_LT(score_of(other, report), score);
+  other = usual;
+  other.outside *= 0.9;
+  EXPECT_LT(score_of(other, report), score);
+  report.max_deviation *= 0.9;
+  EXPECT_LT(score_of(usual, report), score);
+}
+
+/// What a run would give without further attempts.
+class FirstAttempt : public Beginning {
+ public:
+  using Beginning::Beginning;
+  void run() {
+    begin();
+    const CollapseSizes sizes = collapse_sizes(budget_, options_, report_);
+    SolidOptions solid;
+    solid.tets = sizes.tets;
+    SolidHistory none(job_.memory);
+    const OriginalSolid original{original_.view, boundary_, prepared_.surface(job_), prepared_.topology(job_)};
+    TetMesh mesh = decimate_solid_and_check(original, solid, sizes.lowered, none, job_).mesh;
+    RefineOptions refining;
+    refining.tets = budget_.tets;
+    refining.before_lowering = tets_before_lowering(budget_, options_, report_, true, mesh.tets.size());
+    refining.rounds = rounds_of(options_, report_);
+    refining.boundary = boundary_.triangles;
+    refine(original_.view, refining, job_, mesh);
+    result_.mesh = std::move(mesh);
+  }
+};
+
+class Attempted : public WholeRun {
+ protected:
+  void simplify_once(const Mesh &original) {
+    Prepared prepared(host.memory);
+    result = Result(host.memory);
+    const Input input = input_of(original);
+    FirstAttempt(input, options, prepared, host.job, result).run();
+  }
+  double rms(const Mesh &original) { return measure_error(input_of(original), options, mesh(), 1, host.job).rms; }
+};
+
+TEST_F(Attempted, IsMoreAccurateThanTheFirst) {
+  const std::vector<int> cells{6, 8, 10};
+  const std::vector<double> ratios{0.3, 0.1, 0.05};
+  double better = 0;
+  for (int n : cells) {
+    Mesh original = kuhn_cube(n);
+    set_scalars(original, waves);
+    for (double ratio : ratios) {
+      options.target_ratio = ratio;
+      simplify_once(original);
+      const double first = rms(original), size = double(mesh().tets.size());
+      simplify(original);
+      expect_sound(original, 0.02);
+      EXPECT_NEAR(double(mesh().tets.size()), size, 2) << n << ' ' << ratio;
+      better += std::log(rms(original) / first);
+    }
+  }
+  EXPECT_LT(better / double(cells.size() * ratios.size()), std::log(0.95));
+}
+
+}  // namespace
+}  // namespace tetlod
