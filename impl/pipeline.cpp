@@ -101,7 +101,7 @@ class Pipeline : private Beginning {
       throw Error(Status::remesh, failure_);
     }
     const bool collapsed = coarse.is_sound && (mesh_.tets.empty() || coarse.mesh.tets.size() < mesh_.tets.size());
-    report_.reused_collapses = coarse.reused;
+    report_.reused_collapses = collapsed ? coarse.reused : 0;
     if (collapsed) take_over(std::move(coarse));
     return collapsed;
   }
