@@ -14,7 +14,8 @@ FieldsAsLengths<m>::FieldsAsLengths(const MeshView &original, double diagonal, J
   double half = 0;  // the whole may be more than a double holds; the first may be constant
   for (std::size_t i = 0; i < m && !(half > 0); i++)
     half = original.scales.relative[i] * (0.5 * range.high[i] - 0.5 * range.low[i]);
-  const double scale = half > 0 ? 0.5 * diagonal / half : 1;
+  const double longest = 0.5 * diagonal / half;
+  const double scale = std::isfinite(longest) ? longest : 1;  // a range that small counts as none
   for (std::size_t i = 0; i < m; i++) scales[i] = scale * original.scales.weighted[i];
 }
 

@@ -99,6 +99,16 @@ TEST_F(DecimateSolid, WithAHistorySameBytesSooner) {
   EXPECT_GT(double(saved), 0.4 * double(ratios.size()) * double(mesh.points.size()));
 }
 
+/// As lengths its values are beyond all numbers.
+TEST_F(DecimateSolid, AFieldNearlyZeroCountsAsConstant) {
+  Mesh mesh = kuhn_cube(8);
+  set_scalars(mesh, [](const Vec3 &p) { return 1e-310 * waves(p); });
+  start_with(mesh);
+  CoarseSolid coarse(host.memory);
+  ASSERT_TRUE(decimate(0.1, host, coarse)) << failure;
+  expect_sound(coarse);
+}
+
 TEST_F(DecimateSolid, BlocksOfAPlateGetOn) {
   Mesh mesh = kuhn_solid({66, 66, 1}, [](const Cell &) { return true; });
   set_scalars(mesh, waves);
