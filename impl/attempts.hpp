@@ -10,6 +10,9 @@
 
 namespace tetlod {
 
+/// Times what a run has taken up to its first result: a further attempt takes less, and must not use up the time limit.
+constexpr double ample_time = 2;
+
 /// Of an attempt.
 struct Outcome {
   TetMesh mesh;

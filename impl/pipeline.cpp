@@ -1,7 +1,9 @@
 #include "pipeline.hpp"
 
 #include <chrono>
+#include <iterator>
 #include <limits>
+#include <numeric>
 
 #include "attempts.hpp"
 #include "beginning.hpp"
@@ -106,10 +108,12 @@ class Pipeline : private Beginning {
     return collapsed;
   }
 
-  /// Further attempts of a small mesh; the best of all is kept.
+  /// Further attempts of a small mesh, while there is time; the best of all is kept.
   void weigh_planes_otherwise() {
+    const double seconds = std::accumulate(std::begin(report_.seconds), std::end(report_.seconds), 0.0);
     Outcome best{std::move(mesh_), report_, score_};
     for (double planes : weights_of_attempts(budget_, options_, report_)) {
+      if (job_.seconds_left() < ample_time * seconds) break;
       SolidOptions options = collapse_options();
       options.planes = planes;
       SolidHistory none(job_.memory);
