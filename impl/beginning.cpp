@@ -4,6 +4,7 @@
 #include "footprint.hpp"
 #include "least_change.hpp"
 #include "select_samples.hpp"
+#include "status.hpp"
 #include "validate.hpp"
 
 namespace tetlod {
@@ -11,11 +12,16 @@ namespace tetlod {
 void Beginning::begin() {
   prepare();
   extract();
-  if (options_.max_error > 0) refuse_lost_fields(input_, original_);
+  if (const std::string fields = unequal_fields(input_, original_); !fields.empty()) tell_unequal(fields);
   budget_.sigma = options_.sigma;
   if (as_published(options_)) return sample();
   report_.least_change = least_change(original_.view);
   budget_ = first_budget(options_, original_.box.diagonal(), report_);
+}
+
+void Beginning::tell_unequal(const std::string &fields) const {
+  if (options_.max_error > 0) throw Error(Status::max_error, "max-error cannot be held for " + fields);
+  if (job_.log) job_.log(2, ("the smaller one does not steer: " + fields).c_str());
 }
 
 void Beginning::prepare() {

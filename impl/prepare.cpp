@@ -345,11 +345,14 @@ bool renew_values(const Input &input, Job &job, Original &original) {
   return true;
 }
 
-void refuse_lost_fields(const Input &input, const Original &original) {
-  for (std::size_t k = 1; k < original.view.fields; k++)
-    if (original.view.scales.relative[k] >= largest_scale)
-      fail(Status::max_error, "max-error cannot be held for field %.100s: beside a range of %s its own is nothing",
-           input.steering[k - 1].name.c_str(), number(original.range).c_str());
+std::string unequal_fields(const Input &input, const Original &original) {
+  for (std::size_t k = 1; k < original.view.fields; k++) {
+    const double relative = original.view.scales.relative[k];
+    if (relative <= least_scale || relative >= largest_scale)
+      return text("field %.100s: its range and the scalars', %s, are too far apart", input.steering[k - 1].name.c_str(),
+                  number(original.range).c_str());
+  }
+  return {};
 }
 
 }  // namespace tetlod

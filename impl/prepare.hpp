@@ -1,6 +1,7 @@
 // The caller's arrays become the mesh that the stages read: checked, coincident points merged, tets without volume out.
 #pragma once
 #include <cstdint>
+#include <string>
 
 #include "extract_boundary.hpp"
 #include "host_numbers.hpp"
@@ -61,7 +62,7 @@ void prepare_with_boundary(const Input &input, const Options &options, Job &job,
 /// False: it takes prepare_original, because the values change what the mesh is, or are none.
 bool renew_values(const Input &input, Job &job, Original &original);
 
-/// For a bound: throws Status::max_error where the errors of a field would be rounded away beside the scalars' range.
-void refuse_lost_fields(const Input &input, const Original &original);
+/// The first field whose errors are nothing beside the scalars', or theirs beside its own; empty: there is none.
+std::string unequal_fields(const Input &input, const Original &original);
 
 }  // namespace tetlod

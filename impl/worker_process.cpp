@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <utility>
 
@@ -177,7 +178,7 @@ void WorkerProcess::settle(Answer kind, const protocol::Reply &answer, Job &job,
   if (kind == Answer::end) return give_up_dead(job, reply);
   if (kind == Answer::nonsense) return give_up(worker_lied, "sent a message of another length", reply);
   if (kind == Answer::silence)
-    return give_up(worker_exhausted, "took more than " + number(call_->seconds) + " seconds", reply);
+    return give_up(worker_exhausted, text("took more than %lld ms", std::llround(1000 * call_->seconds)), reply);
   if (answer.number != calls_) return give_up(worker_lied, "answered another call", reply);
   output_.drain(*child_, job);
   reply.peak_bytes = answer.peak_bytes;

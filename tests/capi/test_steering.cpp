@@ -1,5 +1,6 @@
 // Several fields that steer, with weights.
 #include <limits>
+#include <string>
 
 #include "steering_fixture.hpp"
 
@@ -184,6 +185,26 @@ TEST_F(Steering, ExtremeRanges) {
   ASSERT_EQ(tetlod_set_real(context.get(), TETLOD_OPT_TARGET_RATIO, 0), TETLOD_OK);
   run();
   EXPECT_LT(error_of("huge", huge).max, 1);
+}
+
+/// A size is met all the same, and the log says so; a bound is refused.
+TEST_F(Steering, RangesTooFarApart) {
+  std::string told;
+  const auto tell = [](void *user, int32_t, const char *message) { *static_cast<std::string *>(user) += message; };
+  ASSERT_EQ(tetlod_set_log(context.get(), tell, &told, 2), TETLOD_OK);
+  for (double factor : {1e200, 1e-200}) {
+    auto other = z;
+    for (std::size_t v = 0; v < points(); v++) cube.values[v] = factor * x[v];
+    for (double &value : other) value /= factor;
+    submit(context.get(), cube);
+    ASSERT_EQ(steer("other", 1, other), TETLOD_OK);
+    ASSERT_EQ(tetlod_set_real(context.get(), TETLOD_OPT_MAX_ERROR, 0), TETLOD_OK);
+    told.clear();
+    run();
+    EXPECT_EQ(told.find("the smaller one does not steer: field other: its range and the scalars', 1.99"), 0U) << told;
+    ASSERT_EQ(tetlod_set_real(context.get(), TETLOD_OPT_MAX_ERROR, 0.1), TETLOD_OK);
+    expect_failure(tetlod_run(context.get()), TETLOD_ERR_MAX_ERROR, "max-error cannot be held for field other: its ra");
+  }
 }
 
 TEST_F(Steering, ANameIsOneField) {
