@@ -10,22 +10,19 @@
 
 namespace tetlod {
 
-/// Times what a run has taken up to its first result: a further attempt takes less, and must not use up the time limit.
-constexpr double ample_time = 2;
-
-/// Of an attempt.
-struct Outcome {
+struct Attempt {
   TetMesh mesh;
   Report report;
   double score;  ///< the less, the better
 };
 
 /// Of the further attempts, what planes weigh of what they do usually. All take no longer than one on a mesh of so many
-/// tets, about.
+/// tets, about. There are none for a host whose time counts: what comes out must not depend on the clock.
 inline Span<const double> weights_of_attempts(const Budget &budget, const Options &options, const Report &report) {
   static constexpr double weights[] = {0.55, 1.8, 0.3, 3.3, 0.15, 6};
   constexpr std::int64_t tets_of_all = 30000;
-  if (options.effort != effort_accurate || options.max_error > 0 || keeps_all(budget, report)) return {};
+  const bool time_counts = options.effort != effort_accurate || options.time_limit > 0 || options.warm_start > 0;
+  if (time_counts || options.max_error > 0 || keeps_all(budget, report)) return {};
   return {weights, std::min(std::size(weights), std::size_t(tets_of_all / report.tets_in))};
 }
 

@@ -24,6 +24,16 @@ using Triangular = std::array<double, n *(n + 1) / 2>;
 constexpr std::size_t entry_of(std::size_t i, std::size_t j) { return i * (i + 1) / 2 + j; }
 
 template <std::size_t n>
+Vector<n> times(const Triangular<n> &a, const Vector<n> &x) {
+  Vector<n> image;
+  for (std::size_t i = 0; i < n; i++) {
+    image[i] = a[entry_of(i, 0)] * x[0];
+    for (std::size_t j = 1; j < n; j++) image[i] += a[i < j ? entry_of(j, i) : entry_of(i, j)] * x[j];
+  }
+  return image;
+}
+
+template <std::size_t n>
 double trace(const Triangular<n> &a) {
   double sum = a[0];
   for (std::size_t i = 1; i < n; i++) sum += a[entry_of(i, i)];

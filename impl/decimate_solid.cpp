@@ -49,7 +49,7 @@ class SolidDecimator {
       rooms_.emplace_back(job.memory);
       works_.emplace_back(job.memory);
     }
-    if (!options.holds_bound) places_.give_way(progress_.gave_way);
+    if (!options.holds_bound) places_.relax(progress_.relaxed);
     if (options.hasty) progress_.far = SolidProgress::far_in_haste;
     if (options.max_deviation > 0) limits_.limit_deviation(surface, options.max_deviation, job);
   }
@@ -125,17 +125,17 @@ class SolidDecimator {
 
   // ---- Rounds
 
-  /// As below; infinite: nothing is admissible, whatever gives way.
+  /// As below; infinite: nothing is admissible, however rules relax.
   double limit_of_round() {
     double limit = limit_by_costs();
-    while (limit == infinity && give_way()) limit = limit_by_costs();
+    while (limit == infinity && relax()) limit = limit_by_costs();
     return limit;
   }
 
-  bool give_way() {
-    const int most = options_.gives_way ? places_.most_of_all : places_.most_for_slivers;
-    if (options_.holds_bound || progress_.gave_way == most) return false;
-    places_.give_way(++progress_.gave_way);
+  bool relax() {
+    const int most = options_.may_relax ? places_.most_of_all : places_.most_for_slivers;
+    if (options_.holds_bound || progress_.relaxed == most) return false;
+    places_.relax(++progress_.relaxed);
     look_again();
     return true;
   }
@@ -266,7 +266,7 @@ class SolidDecimator {
   /// the place of others.
   void keep_state(SolidRemains<m> &remains) {
     const bool of_this_target = progress_.largest_target < options_.tets, follows = progress_.follows();
-    if (!states_ || (of_this_target && !follows) || progress_.gave_way > places_.most_for_slivers) return;
+    if (!states_ || (of_this_target && !follows) || progress_.relaxed > places_.most_for_slivers) return;
     const auto last_is_no_finer = [&] {
       return !states_->empty() && states_->back().remains.tets.size() <= remains.tets.size();
     };

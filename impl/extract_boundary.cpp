@@ -1,6 +1,7 @@
 #include "extract_boundary.hpp"
 
 #include <algorithm>
+#include <string>
 
 #include "face_sweep.hpp"
 #include "predicates.hpp"
@@ -33,6 +34,7 @@ struct Found {
   Array<std::int32_t> tet_of;
   Array<std::int32_t> flat;       // boundary tets that cannot say which way is out
   Array<std::int32_t> duplicate;  // tets with the same four vertices as an earlier one
+  std::string crowded;            // its first face of more than two tets; empty: there is none
 };
 
 std::int32_t opposite(const MeshView &mesh, const FaceUse &f) { return mesh.tets[f.tet()][f.corner()]; }
@@ -49,7 +51,7 @@ void add_boundary_face(const MeshView &mesh, const FaceUse &f, Found &found) {
 }
 
 /// Two tets on one face are neighbours unless they are one tet given twice; more than two are an error unless enough
-/// of them are.
+/// of them are. Which chunk comes to its own first is chance.
 void look_at_shared_face(const MeshView &mesh, std::int32_t low, const FaceUse *first, const FaceUse *last,
                          const HostNumbers &numbers, Found &found) {
   std::ptrdiff_t different = last - first;
@@ -58,11 +60,11 @@ void look_at_shared_face(const MeshView &mesh, std::int32_t low, const FaceUse *
       found.duplicate.push_back(std::int32_t(f->tet()));
       different--;
     }
-  if (different > 2)
-    fail(Status::mesh_nonmanifold,
-         "%d tets share the face of vertices %lld, %lld and %lld (the first are tets %lld, %lld, %lld)", int(different),
-         numbers.vertex(low), numbers.vertex(first->middle), numbers.vertex(first->high), numbers.tet(first->tet()),
-         numbers.tet(first[1].tet()), numbers.tet(first[2].tet()));
+  if (different > 2 && found.crowded.empty())
+    found.crowded =
+        text("%d tets share the face of vertices %lld, %lld and %lld (the first are tets %lld, %lld, %lld)",
+             int(different), numbers.vertex(low), numbers.vertex(first->middle), numbers.vertex(first->high),
+             numbers.tet(first->tet()), numbers.tet(first[1].tet()), numbers.tet(first[2].tet()));
 }
 
 Found sweep(const MeshView &mesh, Span<const std::uint8_t> excluded, const HostNumbers &numbers, Job &job) {
@@ -75,6 +77,8 @@ Found sweep(const MeshView &mesh, Span<const std::uint8_t> excluded, const HostN
     else if (last - first > 2 || opposite(mesh, first[0]) == opposite(mesh, first[1]))
       look_at_shared_face(mesh, low, first, last, numbers, chunks[chunk]);
   });
+  for (const Found &chunk : chunks)
+    if (!chunk.crowded.empty()) throw Error(Status::mesh_nonmanifold, chunk.crowded);
   Found all = std::move(chunks[0]);
   for (std::size_t c = 1; c < chunks.size(); c++) {
     const auto append = [](auto &to, const auto &from) { to.insert(to.end(), from.begin(), from.end()); };

@@ -23,15 +23,7 @@ struct FieldQuadric {
     for (std::size_t i = 0; i < n; i++) b[i] += o.b[i];
     c += o.c;
   }
-  Vector<n> times(const Vector<n> &x) const {
-    Vector<n> image;
-    for (std::size_t i = 0; i < n; i++) {
-      image[i] = a[entry_of(i, 0)] * x[0];
-      for (std::size_t j = 1; j < n; j++) image[i] += a[i < j ? entry_of(j, i) : entry_of(i, j)] * x[j];
-    }
-    return image;
-  }
-  double operator()(const Vector<n> &x) const { return dot(x, times(x)) + 2 * dot(b, x) + c; }
+  double operator()(const Vector<n> &x) const { return dot(x, times<n>(a, x)) + 2 * dot(b, x) + c; }
 };
 
 /// Area times the squared distance to the plane through p, q, r; nothing for a triangle without area.
@@ -55,7 +47,7 @@ FieldQuadric<n> quadric_of(const Vector<n> &p, const Vector<n> &q, const Vector<
   std::size_t entry = 0;
   for (std::size_t i = 0; i < n; i++)
     for (std::size_t j = 0; j <= i; j++) quadric.a[entry++] = area * ((i == j) - e[i] * e[j] - f[i] * f[j]);
-  const Vector<n> image = quadric.times(p);
+  const Vector<n> image = times<n>(quadric.a, p);
   for (std::size_t k = 0; k < n; k++) quadric.b[k] = -image[k];
   quadric.c = dot(p, image);
   return quadric;
@@ -74,7 +66,7 @@ bool place_by_quadric(const FieldQuadric<n> &quadric, const VolumeSums &volume, 
   if (!solver.regular()) return false;
   const Vector<n> middle = x;
   // From the middle on: what cancels there costs no digits.
-  const Vector<n> image = quadric.times(middle);
+  const Vector<n> image = times<n>(quadric.a, middle);
   Vector<n> down;
   for (std::size_t k = 0; k < n; k++) down[k] = -quadric.b[k] - image[k];
   Vector<n> step = solver.solve(down);
@@ -97,8 +89,8 @@ double least_along_edge(const FieldQuadric<n> &quadric, const Vector<n> &a, cons
     x[k] = 0.5 * a[k] + 0.5 * b[k];
     half[k] = 0.5 * b[k] - 0.5 * a[k];
   }
-  const Vector<n> image = quadric.times(x);
-  const double bend = dot(half, quadric.times(half)), slope = dot(half, image) + dot(half, quadric.b);
+  const Vector<n> image = times<n>(quadric.a, x);
+  const double bend = dot(half, times<n>(quadric.a, half)), slope = dot(half, image) + dot(half, quadric.b);
   const double t = bend > 0 ? std::clamp(-slope / bend, -1.0, 1.0) : 0;
   const double at_middle = dot(x, image) + 2 * dot(quadric.b, x) + quadric.c;
   for (std::size_t k = 0; k < n; k++) x[k] += t * half[k];

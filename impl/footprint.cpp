@@ -6,6 +6,7 @@
 #include <glm/matrix.hpp>
 
 #include "adaptive_mesh.hpp"
+#include "attempts.hpp"
 #include "place_probes.hpp"
 #include "surface_distance.hpp"
 #include "whole_arrays.hpp"
@@ -71,7 +72,7 @@ double bytes_of_refining(const Outlook &outlook) {
   if (!(outlook.probes > 0)) return 0;
   return (bytes_a_refined_tet + values_a_refined_tet * more_values(outlook)) * outlook.tets +
          (bytes_a_probe + more_values(outlook)) * outlook.probes +
-         bytes_a_refined_triangle * outlook.boundary_triangles;
+         bytes_a_refined_triangle * outlook.boundary_triangles + outlook.results_aside * bytes_of_result(outlook);
 }
 
 /// Largest distance of the values of some vertices from the linear function that fits them best.
@@ -191,6 +192,7 @@ Outlook outlook_of(const Original &original, const Boundary &boundary, Span<cons
   of.points = of.tets / tets_a_point;
   const double first = std::max(double(budget.tets), std::min(of.tets, double(budget.enough)));
   of.probes = double(expected_probes(original.view, enough_probes(first, rounds_of(options, report), true)));
+  of.results_aside = weights_of_attempts(budget, options, report).empty() ? 0 : 1;
   return of;
 }
 

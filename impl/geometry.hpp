@@ -84,6 +84,16 @@ inline double winding_share(const Vec3 &p, const Vec3 &x, const Vec3 &y, const V
 /// A point this far out of a tet, in barycentric weight, is out of it by rounding.
 constexpr double out_by_rounding = 1e-6;
 
+/// What the least weight of a point in a flat tet counts as, at most: the point is taken in another, where there is
+/// one.
+constexpr double barely_outside = -0.999 * out_by_rounding;
+
+/// Whether barycentric weights in a tet with these edges from one corner are what rounding makes of them.
+inline bool is_flat(const Vec3 &u, const Vec3 &v, const Vec3 &w, double volume6) {
+  constexpr double flat = 1e-11;
+  return volume6 * volume6 < flat * flat * length2(u) * length2(v) * length2(w);
+}
+
 /// The box of a tet, given its own, with the points that are out of it by rounding: three weights may be.
 inline Box with_rounding(const Box &own) {
   const Vec3 margin = 3 * out_by_rounding * (own.high - own.low);

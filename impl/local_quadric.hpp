@@ -34,12 +34,6 @@ struct LocalQuadric {
   Triangular<n> a{};
   Vector<n> g{};
 
-  Vector<n> times(const Vector<n> &d) const {
-    Vector<n> image{};
-    for (std::size_t i = 0; i < n; i++)
-      for (std::size_t j = 0; j < n; j++) image[i] += (i < j ? a[entry_of(j, i)] : a[entry_of(i, j)]) * d[j];
-    return image;
-  }
   /// What it is at two distances d.
   Pair rise(const std::array<Pair, n> &d) const {
     Pair sum = both(0);
@@ -67,7 +61,7 @@ struct LocalQuadric {
     for (std::size_t i = 0; i < a.size(); i++) a[i] += square[i];
   }
   /// The same function, kept at the distance d.
-  LocalQuadric moved(const Vector<n> &d) const { return {a, along(g, 1, times(d))}; }
+  LocalQuadric moved(const Vector<n> &d) const { return {a, along(g, 1, times<n>(a, d))}; }
   void add(const LocalQuadric &o) {
     add(o.a);
     g = along(g, 1, o.g);

@@ -78,8 +78,15 @@ class PointTree {
     if (!find_weights(mesh_, mesh_.tets[t], points_[std::size_t(i)], w)) return;
     const auto [least, most] = std::minmax({w[0], w[1], w[2], w[3]});
     const bool vertex = least == 0 && most == 1;
-    if (least > -out_by_rounding) hits.push_back({i, std::int32_t(t), vertex ? 1 : least});
+    if (least > -out_by_rounding) hits.push_back({i, std::int32_t(t), vertex ? 1 : std::min(least, most_of(t))});
   }
+
+  double most_of(std::size_t t) const {
+    const auto edge = [&](std::size_t k) { return corner(t, k) - corner(t, 0); };
+    const double volume6 = det(corner(t, 0), corner(t, 1), corner(t, 2), corner(t, 3));
+    return is_flat(edge(1), edge(2), edge(3), volume6) ? barely_outside : 1;
+  }
+  const Vec3 &corner(std::size_t t, std::size_t k) const { return mesh_.points[std::size_t(mesh_.tets[t][k])]; }
 
   const MeshView &mesh_;
   Span<const Vec3> points_;

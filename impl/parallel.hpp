@@ -40,12 +40,12 @@ class Parallel {
     for_blocks(sizeof...(steps), 1, [&](std::size_t i, std::size_t) { all[i](); });
   }
 
-  /// body(part, begin, end) for a part of [0, count) for each thread: where each has to look at all of something, and
+  /// body(begin, end) for a part of [0, count) for each thread: where each has to look at all of something, and
   /// what it does with an index does not depend on the part.
   template <class Body>
   void for_parts(std::size_t count, const Body &body) const {
     const std::size_t size = count / std::size_t(threads_) + 1;
-    for_blocks(count, size, [&](std::size_t begin, std::size_t end) { body(begin / size, begin, end); });
+    for_blocks(count, size, body);
   }
 
  private:

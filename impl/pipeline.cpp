@@ -1,9 +1,7 @@
 #include "pipeline.hpp"
 
 #include <chrono>
-#include <iterator>
 #include <limits>
-#include <numeric>
 
 #include "attempts.hpp"
 #include "beginning.hpp"
@@ -94,8 +92,12 @@ class Pipeline : private Beginning {
       ladder_ = coarse.is_sound ? Ladder::first_rung : Ladder::whole;
       if (!reached && options_.remesh) reached = remesh_to_target(worker);
       if (!reached && coarse.is_sound && options_.max_error == 0) collapse_edges(true, coarse);
-    } else if (!remesh_to_target(worker) && options_.clean_edges == 0) {
-      collapse_edges(true, coarse);
+    } else if (!remesh_to_target(worker)) {
+      if (options_.clean_edges == 0)
+        collapse_edges(true, coarse);
+      else if (job_.log && !mesh_.tets.empty())
+        job_.log(
+            1, text("remeshed to %zu tets, not %lld", mesh_.tets.size(), static_cast<long long>(budget_.tets)).c_str());
     }
     if (!coarse.is_sound && mesh_.tets.empty()) {
       if (!options_.remesh)  // who remeshes has looked at that
@@ -108,12 +110,10 @@ class Pipeline : private Beginning {
     return collapsed;
   }
 
-  /// Further attempts of a small mesh, while there is time; the best of all is kept.
+  /// Further attempts of a small mesh; the best of all is kept.
   void weigh_planes_otherwise() {
-    const double seconds = std::accumulate(std::begin(report_.seconds), std::end(report_.seconds), 0.0);
-    Outcome best{std::move(mesh_), report_, score_};
+    Attempt best{std::move(mesh_), report_, score_};
     for (double planes : weights_of_attempts(budget_, options_, report_)) {
-      if (job_.seconds_left() < ample_time * seconds) break;
       SolidOptions options = collapse_options();
       options.planes = planes;
       SolidHistory none(job_.memory);
@@ -143,11 +143,15 @@ class Pipeline : private Beginning {
   }
 
   /// To the budget, or to what suits the bound, where that betters `best`. False: to no sound mesh of the size.
-  bool collapse_edges(bool gives_way, CoarseSolid &best) {
+  bool collapse_edges(bool may_relax, CoarseSolid &best) {
     describe_boundary(prepared_.topology(job_), report_);
     SolidOptions options = collapse_options();
-    options.gives_way = gives_way;
-    SolidHistory &history = prepared_.history(options.holds_bound, options.hasty, options.warm_start > 0, job_);
+    options.may_relax = may_relax;
+    // With further attempts it would save the first alone, and take memory from the others.
+    SolidHistory none(job_.memory);
+    SolidHistory &history = weights_of_attempts(budget_, options_, report_).empty()
+                                ? prepared_.history(options.holds_bound, options.hasty, options.warm_start > 0, job_)
+                                : none;
     options.one_of_many = report_.reused_tets > 0 && history.is_repeated();
     CoarseSolid coarse = collapse(options, history);
     const std::string failure = coarse.wrong.empty() ? "" : "edges collapsed in vain: " + coarse.wrong;
@@ -220,16 +224,17 @@ class Pipeline : private Beginning {
   void refine(bool collapsed) {
     const StageTimer timer(Stage::values, job_, report_);
     const double bound = options_.max_error * original_.range;
-    const Array<std::uint8_t> kept = kept_.flags_of(origin_, job_.memory);
-    const bool follows_field = !collapsed || options_.effort == effort_accurate;
+    const bool is_original = collapsed && is_the_original(mesh_, origin_, report_);
+    Array<std::uint8_t> kept = kept_.flags_of(origin_, job_.memory);
+    if (is_original) kept.assign(mesh_.points.size(), keep_vertex);
+    const bool follows_field = !is_original && (!collapsed || options_.effort == effort_accurate);
     const std::int64_t before = tets_before_lowering(budget_, options_, report_, collapsed, mesh_.tets.size());
     const RefineOptions options{
         budget_.tets, before, report_.steiner_points, follows_field,    rounds_of(options_, report_),
         bound,        kept,   boundary_.triangles,    deviation_limit()};
     RefineReport refined(job_.memory);
     // A bound is looked for all the same: the sides of a slit may be nearer than weights are rounded by.
-    if (bound > 0 || !collapsed || !is_the_original(mesh_, origin_, report_))
-      refined = tetlod::refine(original_.view, options, job_, mesh_);
+    if (bound > 0 || !is_original) refined = tetlod::refine(original_.view, options, job_, mesh_);
     describe_refinement(refined, original_, report_);
     score_ = meets_size(budget_, mesh_) ? score_of(refined, report_) : std::numeric_limits<double>::infinity();
     beyond_ = std::move(refined.beyond_bound);

@@ -136,7 +136,7 @@ struct Result {
 };
 
 /// Simplifies; throws Error. `result` is meant to be a fresh one: after a throw its contents mean nothing. Takes what
-/// `prepared` has of earlier runs, and leaves there what later ones may use, also after a throw.
+/// `prepared` has of earlier runs, and leaves there what later ones may use; after a throw it is to be forgotten.
 void run(const Input &input, const Options &options, Worker &worker, Prepared &prepared, Job &job, Result &result);
 
 /// What Report::peak_bytes of such a run would be, within a factor of 1.5 for sound meshes. Does the run's first

@@ -199,6 +199,7 @@ class Locator {
   std::int32_t walk(const Vec3 &p, std::int32_t t) const {
     for (int step = 0; step < longest_walk; step++) {
       double w[4];
+      if (frames_[std::size_t(t)].is_flat()) return -1;
       const double least = frames_[std::size_t(t)].weights(p, w);
       if (least >= 0) return t;
       const std::int32_t next = mesh_.neighbours[std::size_t(t)][std::size_t(std::min_element(w, w + 4) - w)];

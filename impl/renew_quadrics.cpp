@@ -25,7 +25,7 @@ class QuadricRenewal {
   double run() {
     begin();
     const std::size_t vertices = remains_.points.size();
-    job_.parallel.for_parts(vertices, [&](std::size_t, std::size_t begin, std::size_t end) {
+    job_.parallel.for_parts(vertices, [&](std::size_t begin, std::size_t end) {
       add_tets(begin, end);
       add_planes(begin, end);
       for (std::size_t v = begin; v < end; v++)

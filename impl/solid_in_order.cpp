@@ -45,7 +45,7 @@ void order_tets(const MeshView &original, Span<const std::int32_t> number, Job &
   const Array<std::int32_t> first = first_vertices(original, number, job);
   Array<std::size_t> next(solid.points.size() + 1, 0, &job.memory);
   const auto for_tets = [&](const auto &visit) {
-    job.parallel.for_parts(solid.points.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    job.parallel.for_parts(solid.points.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t t = 0; t < first.size(); t++) {
         if (t % poll_every == 0) job.poll(0);
         if (std::size_t(first[t]) - begin < end - begin) visit(t, next[std::size_t(first[t])]);

@@ -62,8 +62,7 @@ SolidRemains<m> SolidMesh<m>::take_remains(Span<const std::int32_t> number, Job 
 
 template <std::size_t m>
 void SolidMesh<m>::find_quadrics(double planes, Job &job) {
-  job.parallel.for_parts(points.size(),
-                         [&](std::size_t, std::size_t begin, std::size_t end) { add_tets(begin, end, job); });
+  job.parallel.for_parts(points.size(), [&](std::size_t begin, std::size_t end) { add_tets(begin, end, job); });
   measures.weight_of_planes = planes * weigh_planes(*this, job);
   for_each(points.size(), job, [&](std::size_t v) {
     for (std::int32_t t : triangles_of.of(std::int32_t(v)))

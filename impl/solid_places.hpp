@@ -27,9 +27,9 @@ class SolidPlaces {
         volume_of_collapse_(volume_to_lose * mesh.measures.volume / double(boundary_vertices)),
         rules_(holds_bound ? of_bound : rules[0]) {}
 
-  /// Where nothing is admissible any more: how often rules may give way then, those of slivers alone and all.
+  /// Where nothing is admissible any more: how often rules may relax then, those of slivers alone and all.
   static constexpr int most_for_slivers = 2, most_of_all = 5;
-  void give_way(int times) { rules_ = rules[times]; }
+  void relax(int times) { rules_ = rules[times]; }
 
   /// An edge that was found at v collapses to the best place near it, or, where that is not admissible, to the best
   /// along it, at t.

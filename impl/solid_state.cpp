@@ -18,7 +18,7 @@ SolidProgress::SolidProgress(const SolidProgress &of, Memory &memory)
       last_far(of.last_far),
       first_near(of.first_near),
       most_waited(of.most_waited),
-      gave_way(of.gave_way),
+      relaxed(of.relaxed),
       largest_target(of.largest_target),
       next_closing(of.next_closing),
       cost(of.cost),
@@ -28,7 +28,7 @@ SolidProgress::SolidProgress(const SolidProgress &of, Memory &memory)
       into(of.into, &memory) {}
 
 void SolidProgress::choose_way(std::int64_t count, std::int64_t tets) {
-  if (is_far(count, tets) && gave_way == 0)
+  if (is_far(count, tets) && relaxed == 0)
     last_far = count;
   else if (removes())
     first_near = count;

@@ -49,7 +49,7 @@ struct SolidProgress {
   std::int64_t last_far = std::numeric_limits<std::int64_t>::max();        ///< tets, when that was chosen last
   std::int64_t first_near = 0;                                             ///< tets, when it was not for the first time
   bool most_waited = false;                                                ///< in the round before
-  int gave_way = 0;                                                        ///< rules, where nothing was admissible
+  int relaxed = 0;                                                         ///< rules, where nothing was admissible
   std::int64_t largest_target = std::numeric_limits<std::int64_t>::max();  ///< up to it the rounds so far are the same
   std::int64_t next_closing = 0;                                           ///< with fewer tets, gaps are closed
   double cost = 0;                                                         ///< of all collapses so far

@@ -102,7 +102,7 @@ class StarLists {
   /// visit(vertex, simplex) for every corner: of one vertex one after another, of several at the same time.
   template <std::size_t corners, class Visit>
   void for_corners(Span<const std::array<std::int32_t, corners>> simplices, Job &job, const Visit &visit) const {
-    job.parallel.for_parts(count_.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    job.parallel.for_parts(count_.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = 0; i < simplices.size(); i++) {
         if (i % 65536 == 0) job.poll(0);
         if (simplices[i][0] < 0) continue;

@@ -11,6 +11,7 @@ namespace tetlod {
 struct TetFrame {
   Vec3 origin, row[3];
   double volume6;
+  double most;  ///< that a least weight may count as
 
   TetFrame() = default;
   TetFrame(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &d) : origin(a) {
@@ -21,13 +22,15 @@ struct TetFrame {
     row[0] = inverse * glm::cross(v, w);
     row[1] = inverse * glm::cross(w, u);
     row[2] = inverse * n;
+    most = tetlod::is_flat(u, v, w, volume6) ? barely_outside : 1;
   }
+  bool is_flat() const { return most < 0; }
   /// Barycentric weights of p; returns the least.
   double weights(const Vec3 &p, double w[4]) const {
     const Vec3 q = p - origin;
     for (int k = 0; k < 3; k++) w[k + 1] = glm::dot(row[k], q);
     w[0] = 1 - w[1] - w[2] - w[3];
-    return std::min(std::min(w[0], w[1]), std::min(w[2], w[3]));
+    return std::min(most, std::min(std::min(w[0], w[1]), std::min(w[2], w[3])));
   }
   Vec3 gradient(double a, double b, double c, double d) const {
     return (b - a) * row[0] + (c - a) * row[1] + (d - a) * row[2];

@@ -5,9 +5,9 @@
 
 #include "extract_boundary.hpp"
 #include "face_sweep.hpp"
-#include "find_crossing.hpp"
 #include "geometry.hpp"
 #include "merge_points.hpp"
+#include "nested_solids.hpp"
 #include "predicates.hpp"
 #include "prepare.hpp"
 #include "surface_topology.hpp"
@@ -279,7 +279,7 @@ Error verdict_on(const Input &input, const Options &options, Job &job) {
     make_surface(original.view, boundary.triangles, job, surface);
     SurfaceTopology topology(job.memory);
     find_topology(surface.points, surface.triangles, job, topology, host_numbers(surface, input.index_base));
-    refuse_crossing(surface, input.index_base, job);
+    refuse_intersections(surface, topology, input.index_base, job);
   } catch (const Error &error) {
     if (!blames_the_mesh(error)) throw;
     return error;

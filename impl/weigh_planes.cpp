@@ -31,7 +31,7 @@ struct QuadricsAround {
     sum.add(moved);
   }
   double after(const Vector<n> &step) const {
-    return std::max(0.0, here + 2 * dot<n>(sum.g, step) + dot<n>(sum.times(step), step));
+    return std::max(0.0, here + 2 * dot<n>(sum.g, step) + dot<n>(times<n>(sum.a, step), step));
   }
 };
 

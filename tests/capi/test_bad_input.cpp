@@ -137,9 +137,15 @@ TEST_P(BadInputs, HaveAStatusAndLeaveTheContextWhole) {
   const std::vector<unsigned char> before = bytes_of(context.get());
 
   submit(context.get(), bad);
+  tetlod_mesh_report found{};
+  found.struct_size = sizeof found;
+  ASSERT_EQ(tetlod_check(context.get(), &found), TETLOD_OK);
   for (double sigma : {0.1, 1.0}) {
     ASSERT_EQ(tetlod_set_sigma(context.get(), sigma), TETLOD_OK);
     const tetlod_status status = tetlod_run(context.get());
+    if (sigma == 1) {
+      EXPECT_EQ(found.status, status) << "what tetlod_check says";
+    }
     EXPECT_NE(std::find(GetParam().allowed.begin(), GetParam().allowed.end(), status), GetParam().allowed.end())
         << status << ": " << message_of(context.get());
     if (status != TETLOD_OK) {

@@ -55,6 +55,18 @@ TEST(EstimateMemory, KnowsTargetsBoundsAndFields) {
       }
 }
 
+/// With further attempts, for accuracy.
+TEST(EstimateMemory, KnowsSmallMeshes) {
+  for (int n : {8, 15, 17})
+    for (double ratio : {0.01, 0.1, 0.5, 0.9}) {
+      const Cube cube(n);
+      const Context context = make_context();
+      submit(context.get(), cube);
+      ASSERT_EQ(tetlod_set_real(context.get(), TETLOD_OPT_TARGET_RATIO, ratio), TETLOD_OK);
+      expect_estimate(context.get(), std::to_string(n) + ", ratio " + std::to_string(ratio));
+    }
+}
+
 /// The lowest layers of a cube of n: thin solids have many triangles a tet.
 Cube plate(int n, int layers) {
   Cube cube(n);

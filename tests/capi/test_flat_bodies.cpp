@@ -38,5 +38,22 @@ TEST_F(FlatBody, IsRemeshedBeforeItsFoldsGetSharper) {
   EXPECT_EQ(run(0.01, 0.07, 0).remesh_attempts, 0);
 }
 
+/// Where edges are to be cleaned it is remeshed alone, which may not come to the size.
+TEST_F(FlatBody, TheLogTellsASizeThatRemeshingMisses) {
+  for (std::size_t v = 0; v < cube.values.size(); v++) cube.xyz[3 * v + 2] *= 0.01;
+  const Context context = make_context();
+  std::string told;
+  const auto tell = [](void *user, int32_t, const char *message) { *static_cast<std::string *>(user) += message; };
+  tetlod_set_log(context.get(), tell, &told, 1);
+  tetlod_set_real(context.get(), TETLOD_OPT_TARGET_RATIO, 0.02);
+  tetlod_set_real(context.get(), TETLOD_OPT_CLEAN_EDGES, 1e-15);
+  submit(context.get(), cube);
+  ASSERT_EQ(tetlod_run(context.get()), TETLOD_OK) << message_of(context.get());
+  const std::int64_t asked = std::int64_t(cube.corners.size()) / 4 / 50, tets = report_of(context.get()).tets_out;
+  ASSERT_GT(tets, asked + asked / 10) << "the size is met: the test looks at nothing";
+  EXPECT_EQ(told.find("remeshed to "), 0U) << told;
+  EXPECT_NE(told.find(" tets, not " + std::to_string(asked)), std::string::npos) << told;
+}
+
 }  // namespace
 }  // namespace tetlod_test

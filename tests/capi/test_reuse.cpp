@@ -114,10 +114,11 @@ class CollapseReuse : public Reuse {
   CollapseReuse() { cube = Cube(12); }
 
   /// How many collapses were taken over.
-  std::int64_t level(double ratio, double bound) {
+  std::int64_t level(double ratio, double bound, int effort = TETLOD_EFFORT_FAST) {
     options = {[=](tetlod_context *of) {
       tetlod_set_real(of, TETLOD_OPT_TARGET_RATIO, ratio);
       tetlod_set_real(of, TETLOD_OPT_MAX_ERROR, bound);
+      tetlod_set_int(of, TETLOD_OPT_EFFORT, effort);
     }};
     return expect_fresh_bytes().reused_collapses;
   }
@@ -147,6 +148,11 @@ TEST_F(CollapseReuse, Sizes) {
   EXPECT_EQ(level(0.2, 0), 0);
   flags[7] = 0;
   EXPECT_EQ(level(0.2, 0), 0);
+}
+
+/// They begin anew in each of several attempts, with all the memory.
+TEST_F(CollapseReuse, NotOfSmallMeshesForAccuracy) {
+  for (double ratio : {0.2, 0.2, 0.2, 0.05}) EXPECT_EQ(level(ratio, 0, TETLOD_EFFORT_ACCURATE), 0) << ratio;
 }
 
 /// The one promise of the same bytes that is given up, by who asks for it.

@@ -1,12 +1,7 @@
 // Further attempts of small meshes: how many there are, what the best is, and that it is better than the first.
 #include "attempts.hpp"
-
-#include <chrono>
-#include <thread>
-
 #include "beginning.hpp"
 #include "decimate_solid_and_check.hpp"
-#include "hash.hpp"
 #include "whole_run.hpp"
 
 namespace tetlod {
@@ -36,10 +31,12 @@ TEST(Attempts, AreMadeOfSmallMeshesForAccuracyAlone) {
   options.target_ratio = 1;
   EXPECT_EQ(attempts(10, options), 0U);
   options.target_ratio = 0.1;
-  Options fast = options, bound = options;
+  Options fast = options, bound = options, limited = options, warm = options;
   fast.effort = effort_fast;
   bound.max_error = 0.1;
-  for (const Options &other : {fast, bound}) EXPECT_EQ(attempts(10, other), 0U);
+  limited.time_limit = 1e9;
+  warm.warm_start = 0.1;
+  for (const Options &other : {fast, bound, limited, warm}) EXPECT_EQ(attempts(10, other), 0U);
 }
 
 TEST(Attempts, TheBestHasTheLeastOfAll) {
@@ -111,26 +108,6 @@ TEST_F(Attempted, IsMoreAccurateThanTheFirst) {
     }
   }
   EXPECT_LT(better / double(cells.size() * ratios.size()), std::log(0.95));
-}
-
-TEST_F(Attempted, EndsWithTheFirstWhereTimeIsShort) {
-  Mesh original = kuhn_cube(6);
-  set_scalars(original, waves);
-  options.target_ratio = 0.1;
-  simplify_once(original);
-  const auto first = hash_of(mesh());
-  simplify(original);
-  ASSERT_NE(report().hash, first);
-  Host busy;
-  busy.job.time_limit = 2;
-  bool has_slept = false;
-  busy.job.progress = [&](Stage, double) {
-    if (!has_slept) std::this_thread::sleep_for(std::chrono::milliseconds(1000));
-    return !(has_slept = true);
-  };
-  Result late(busy.memory);
-  run(input_of(original), options, worker, busy.job, late);
-  EXPECT_EQ(late.report.hash, first);
 }
 
 }  // namespace

@@ -379,11 +379,11 @@ TEST_F(DecimateSolid, AFlatBodyReachesItsSizeAsRulesGiveWay) {
   start_with(flat);
   for (double ratio : {0.2, 0.1}) {
     CoarseSolid strict(host.memory), coarse(host.memory);
-    options.gives_way = false;
+    options.may_relax = false;
     decimate(ratio, host, strict);
     expect_sound(strict);
     EXPECT_EQ(failure.empty(), ratio > 0.1) << failure;
-    options.gives_way = true;
+    options.may_relax = true;
     EXPECT_TRUE(decimate(ratio, host, coarse)) << failure;
     expect_sound(coarse);
     EXPECT_LT(coarse.deviation, 0.03 * box_of(surface.points).diagonal());

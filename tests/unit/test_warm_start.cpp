@@ -94,13 +94,13 @@ TEST_F(WarmStart, KeepsNoStateOfSharpFolds) {
   Mesh flat = flat_body();
   set_scalars(flat, waves);
   start_with(flat);
-  options.gives_way = true;
+  options.may_relax = true;
   SolidHistory history(host.memory);
   CoarseSolid coarse(host.memory);
   ASSERT_TRUE(decimate(0.03, host, history, coarse)) << failure;
   ASSERT_FALSE(history.states<1>(host.memory).empty());
   for (const SolidState<1> &state : history.states<1>(host.memory))
-    EXPECT_LE(state.progress.gave_way, SolidPlaces<1>::most_for_slivers);
+    EXPECT_LE(state.progress.relaxed, SolidPlaces<1>::most_for_slivers);
 }
 
 TEST_F(WarmStart, BeginsWhereASlowFrontLeftTheSolid) {
