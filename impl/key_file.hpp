@@ -61,4 +61,16 @@ struct FaceKey {
   std::uint64_t other_side() const { return key ^ 1; }
 };
 
+/// The faces that these triangles are; both sides of one are two.
+inline void file_faces(Span<const Triangle> triangles, std::size_t vertices, double fraction, Job &job,
+                       KeyFile &faces) {
+  const auto enumerate = [&](const auto &visit) {
+    for (const Triangle &t : triangles) {
+      const FaceKey face(t);
+      visit(face.vertex, face.key);
+    }
+  };
+  faces.build(vertices, enumerate, fraction, job);
+}
+
 }  // namespace tetlod

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
-#include <numeric>
 
 #include "disjoint_sets.hpp"
+#include "exact_order.hpp"
 #include "geometry.hpp"
 #include "key_file.hpp"
 #include "remesh_frame.hpp"
@@ -69,28 +69,15 @@ void check_areas(Span<const Vec3> points, Span<const Triangle> triangles) {
 }
 
 void check_coincident(Span<const Vec3> points, Job &job) {
-  Array<std::int32_t> order(points.size(), &job.memory);
-  std::iota(order.begin(), order.end(), 0);
-  const auto at = [&](std::int32_t i) -> const Vec3 & { return points[std::size_t(i)]; };
-  std::sort(order.begin(), order.end(), PollingLess(job, 0, [&](std::int32_t i, std::int32_t j) {
-              return at(i) != at(j) ? is_before(at(i), at(j)) : i < j;
-            }));
+  const Array<std::int32_t> order = in_exact_order(points, job);
   for (std::size_t i = 1; i < order.size(); i++)
-    if (at(order[i - 1]) == at(order[i]))
+    if (points[std::size_t(order[i - 1])] == points[std::size_t(order[i])])
       fail(Status::mesh_degenerate, "boundary vertices %d and %d are at the same place", order[i - 1], order[i]);
 }
 
 void check_duplicates(const Surface &surface, Job &job) {
   KeyFile faces(job.memory);
-  faces.build(
-      surface.points.size(),
-      [&](const auto &visit) {
-        for (const Triangle &t : surface.triangles) {
-          const FaceKey face(t);
-          visit(face.vertex, face.key);
-        }
-      },
-      0, job);
+  file_faces(surface.triangles, surface.points.size(), 0, job, faces);
   for (std::size_t v = 0; v < faces.vertices(); v++) {
     const Span<const std::uint64_t> keys = faces.of(v);
     for (std::size_t i = 1; i < keys.size(); i++)

@@ -1,9 +1,9 @@
 #include "remesh_result.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
+#include "exact_order.hpp"
 #include "geometry.hpp"
 #include "key_file.hpp"
 #include "status.hpp"
@@ -32,18 +32,6 @@ void wind_positively(TetgenReply &reply, double fraction, Job &job) {
   for (Tet &tet : reply.tets) std::swap(tet[2], tet[3]);
 }
 
-void file_triangles(const RemeshInput &input, std::size_t vertices, double fraction, Job &job, KeyFile &faces) {
-  faces.build(
-      vertices,
-      [&](const auto &visit) {
-        for (const Triangle &t : input.triangles) {
-          const FaceKey face(t);
-          visit(face.vertex, face.key);
-        }
-      },
-      fraction, job);
-}
-
 bool contains(const KeyFile &faces, std::int32_t vertex, std::uint64_t key) {
   const Span<const std::uint64_t> keys = faces.of(std::size_t(vertex));
   return std::binary_search(keys.begin(), keys.end(), key);
@@ -54,7 +42,7 @@ enum Vote : unsigned char { none = 0, material = 1, empty = 2, contradiction = 3
 
 Array<unsigned char> vote(const RemeshInput &input, const TetgenReply &reply, double fraction, Job &job) {
   KeyFile boundary(job.memory);
-  file_triangles(input, reply.points.size(), fraction, job, boundary);
+  file_faces(input.triangles, reply.points.size(), fraction, job, boundary);
   Array<unsigned char> votes(reply.tets.size() + 1, none, &job.memory);
   for (std::size_t i = 0; i < reply.tets.size(); i++) {
     if (i % block == 0) job.poll(fraction);
@@ -121,12 +109,7 @@ std::string check_faces(const RemeshInput &input, const TetgenReply &reply, doub
 /// Points by their exact place, to know samples again that came by -i.
 class PlaceIndex {
  public:
-  PlaceIndex(Span<const Vec3> points, Job &job) : points_(points), order_(points.size(), &job.memory) {
-    std::iota(order_.begin(), order_.end(), 0);
-    std::sort(order_.begin(), order_.end(), PollingLess(job, 0, [&](std::int32_t i, std::int32_t j) {
-                return at(i) != at(j) ? is_before(at(i), at(j)) : i < j;
-              }));
-  }
+  PlaceIndex(Span<const Vec3> points, Job &job) : points_(points), order_(in_exact_order(points, job)) {}
   /// The lowest index of a point at this place, or -1.
   std::int32_t find(const Vec3 &place) const {
     const auto found = std::lower_bound(order_.begin(), order_.end(), place,
