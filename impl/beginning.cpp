@@ -12,14 +12,17 @@ namespace tetlod {
 void Beginning::begin() {
   prepare();
   extract();
-  if (const std::string fields = unequal_fields(input_, original_); !fields.empty()) tell_unequal(fields);
+  if (original_.unequal_field > 0) tell_unequal_fields();
   budget_.sigma = options_.sigma;
   if (as_published(options_)) return sample();
   report_.least_change = least_change(original_.view);
   budget_ = first_budget(options_, original_.box.diagonal(), report_);
 }
 
-void Beginning::tell_unequal(const std::string &fields) const {
+void Beginning::tell_unequal_fields() const {
+  const std::string &name = input_.steering[original_.unequal_field - 1].name;
+  const std::string fields = text("field %.100s: its range and the scalars', %s, are too far apart", name.c_str(),
+                                  number(original_.range).c_str());
   if (options_.max_error > 0) throw Error(Status::max_error, "max-error cannot be held for " + fields);
   if (job_.log) job_.log(2, ("the smaller one does not steer: " + fields).c_str());
 }

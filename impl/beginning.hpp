@@ -1,7 +1,5 @@
 // The first stages of a run, the cheap ones: what needs neither decimation nor remeshing.
 #pragma once
-#include <string>
-
 #include "budget.hpp"
 #include "prepared.hpp"
 #include "stage_timer.hpp"
@@ -38,7 +36,7 @@ class Beginning {
   Array<std::int32_t> selected_{&job_.memory};  // by sampling
 
  private:
-  void tell_unequal(const std::string &fields) const;
+  void tell_unequal_fields() const;
   void prepare();
   void extract();
 };

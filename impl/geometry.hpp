@@ -88,10 +88,13 @@ constexpr double out_by_rounding = 1e-6;
 /// one.
 constexpr double barely_outside = -0.999 * out_by_rounding;
 
-/// Whether barycentric weights in a tet with these edges from one corner are what rounding makes of them.
+/// Volume over the product of three edges, or the cube of the longest: weights in flatter tets are what rounding makes
+/// of them, where the tets do not lie along the axes.
+constexpr double flattest = 1e-11;
+
+/// Seen from the corner that these edges have in common, and that weights are reckoned from.
 inline bool is_flat(const Vec3 &u, const Vec3 &v, const Vec3 &w, double volume6) {
-  constexpr double flat = 1e-11;
-  return volume6 * volume6 < flat * flat * length2(u) * length2(v) * length2(w);
+  return !(volume6 * volume6 > flattest * flattest * length2(u) * length2(v) * length2(w));
 }
 
 /// The box of a tet, given its own, with the points that are out of it by rounding: three weights may be.

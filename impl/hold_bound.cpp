@@ -18,8 +18,6 @@ constexpr double snaps[] = {1e-4, 1e-6, 1e-9};
 /// So near to a corner a vertex is that corner; less near, the corner gets its values, if it has none of another: a
 /// vertex beside a corner that is wrong would make the field steep.
 constexpr double at_corner = 1e-6, near_corner = 1e-3;
-/// Flatter tets than elsewhere are taken, for the bound's sake.
-constexpr double flattest = 1e-11;
 /// Sweeps that also flip, and in which values give way; the sweeps after them insert alone, which ends.
 constexpr int flipping_sweeps = 3, yielding_sweeps = 12;
 
@@ -102,6 +100,7 @@ class LargestErrors {
     if (corner >= 0 && give_values(corner, probe.value)) return true;
     if (corner >= 0 && corner_at(mesh_, t, probe.point, at_corner) >= 0) return false;
     for (double snap : snaps) {
+      // Flatter tets than elsewhere are taken, for the bound's sake.
       if (!insert_vertex(t, probe.point, probe.value, snap, flattest, mesh_)) continue;
       mesh_.kept.back() = held;
       mesh_.star(std::int32_t(mesh_.points.size()) - 1, around_);

@@ -241,7 +241,8 @@ NearestPoint nearest_if_outside(const TetComplex &mesh, std::int32_t t, const Ve
   constexpr double slack = 2;
   if (t < 0) return boundary.nearest(p);
   double w[4];
-  const double out = -mesh.frame(t).weights(p, w);
+  mesh.frame(t).weights(p, w);
+  const double out = -*std::min_element(w, w + 4);  // of a flat tet, too
   if (out <= 0) return {};
   const double length2 = longest2(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2), mesh.corner(t, 3));
   const NearestPoint nearest = boundary.nearest(p);

@@ -88,15 +88,22 @@ double extent_of(const Ranges &ranges, std::size_t k) {
   return range > 0 ? range : std::max({std::abs(ranges.low[k]), std::abs(ranges.high[k]), 1.0});
 }
 
+/// What is constant has no errors.
+bool is_unequal(const Ranges &ranges, std::size_t k, double relative) {
+  return ranges.high[k] > ranges.low[k] && (relative <= least_scale || relative >= largest_scale);
+}
+
 void find_scales(const Input &input, const Ranges &ranges, Original &original) {
   original.scalar_min = ranges.low[0];
   original.scalar_max = ranges.high[0];
   original.range = range_of(ranges, 0);
   original.view.scales = {};
+  original.unequal_field = 0;
   for (std::size_t k = 1; k < original.view.fields; k++)
     if (!(original.range > 0) && ranges.high[k] > ranges.low[k]) original.range = extent_of(ranges, 0);
   for (std::size_t k = 1; k < original.view.fields; k++) {
     const double relative = sane_scale(original.range / extent_of(ranges, k));
+    if (original.unequal_field == 0 && is_unequal(ranges, k, relative)) original.unequal_field = k;
     original.view.scales.relative[k] = relative;
     original.view.scales.weighted[k] = sane_scale(relative * input.steering[k - 1].weight);
   }
@@ -343,16 +350,6 @@ bool renew_values(const Input &input, Job &job, Original &original) {
   }
   measure(input, job, original);
   return true;
-}
-
-std::string unequal_fields(const Input &input, const Original &original) {
-  for (std::size_t k = 1; k < original.view.fields; k++) {
-    const double relative = original.view.scales.relative[k];
-    if (relative <= least_scale || relative >= largest_scale)
-      return text("field %.100s: its range and the scalars', %s, are too far apart", input.steering[k - 1].name.c_str(),
-                  number(original.range).c_str());
-  }
-  return {};
 }
 
 }  // namespace tetlod

@@ -1,7 +1,6 @@
 // The caller's arrays become the mesh that the stages read: checked, coincident points merged, tets without volume out.
 #pragma once
 #include <cstdint>
-#include <string>
 
 #include "extract_boundary.hpp"
 #include "host_numbers.hpp"
@@ -36,7 +35,9 @@ struct Original {
   int exponent = 0;                   ///< the view's coordinates are the caller's divided by 2^exponent
   double scalar_min = 0, scalar_max = 0;  ///< over the vertices that tets of the view have
   double range = 0;  ///< of the scalars; where they are constant and another field is not, something in its place
-  Box box;           ///< of the vertices that tets of the view have
+  std::size_t unequal_field =
+      0;    ///< the first of those whose errors, or the scalars' beside them, are nothing; 0: none
+  Box box;  ///< of the vertices that tets of the view have
 
   HostNumbers numbers() const { return {index_base, {}, tet_number}; }
 };
@@ -61,8 +62,5 @@ void prepare_with_boundary(const Input &input, const Options &options, Job &job,
 /// The same as prepare_original of a mesh whose points, tets, flags and options are what they were, and other values.
 /// False: it takes prepare_original, because the values change what the mesh is, or are none.
 bool renew_values(const Input &input, Job &job, Original &original);
-
-/// The first field whose errors are nothing beside the scalars', or theirs beside its own; empty: there is none.
-std::string unequal_fields(const Input &input, const Original &original);
 
 }  // namespace tetlod

@@ -30,7 +30,7 @@ struct TetFrame {
     const Vec3 q = p - origin;
     for (int k = 0; k < 3; k++) w[k + 1] = glm::dot(row[k], q);
     w[0] = 1 - w[1] - w[2] - w[3];
-    return std::min(most, std::min(std::min(w[0], w[1]), std::min(w[2], w[3])));
+    return std::min(std::min(std::min(w[0], w[1]), std::min(w[2], w[3])), most);  // in this order: NaN stays NaN
   }
   Vec3 gradient(double a, double b, double c, double d) const {
     return (b - a) * row[0] + (c - a) * row[1] + (d - a) * row[2];

@@ -208,6 +208,20 @@ TEST_F(Steering, RangesTooFarApart) {
   }
 }
 
+/// It has no errors, whatever its value.
+TEST_F(Steering, AConstantIsNotTooFarApart) {
+  ASSERT_EQ(tetlod_set_real(context.get(), TETLOD_OPT_MAX_ERROR, 0.1), TETLOD_OK);
+  for (double value : {0.0, 5.0, 1e200}) {
+    const std::vector<double> constant(points(), value);
+    for (const auto &scalars : {std::vector<double>(points(), 0), x}) {
+      cube.values = scalars;
+      submit(context.get(), cube);
+      ASSERT_EQ(steer("constant", 1, constant), TETLOD_OK);
+      EXPECT_EQ(tetlod_run(context.get()), TETLOD_OK) << value << ": " << message_of(context.get());
+    }
+  }
+}
+
 TEST_F(Steering, ANameIsOneField) {
   ASSERT_EQ(carry("z", z, 1), TETLOD_OK);
   ASSERT_EQ(steer("z", 1, z), TETLOD_OK);

@@ -76,6 +76,16 @@ TEST_F(FlatTets, ABoundHoldsOrIsRefused) {
   EXPECT_GT(held, 30);
 }
 
+/// Along the axes weights are exact, however flat all tets are.
+TEST_F(FlatTets, ASheetIsDecimatedToABound) {
+  Mesh sheet = kuhn_cube(8);
+  set_scalars(sheet, [](const Vec3 &p) { return std::sin(5 * p.x) * std::cos(4 * p.y); });
+  transform(sheet, [](const Vec3 &p) { return Vec3(p.x, p.y, std::ldexp(p.z, -37)); });
+  options.max_error = 0.02;
+  ASSERT_EQ(status(sheet), Status::ok);
+  EXPECT_LT(mesh().tets.size(), sheet.tets.size() / 2);
+}
+
 /// Where rounding leaves less and less of the places.
 TEST_F(FlatTets, FarOutTheOriginalItselfHoldsAnyBound) {
   for (int exponent : {20, 38, 50}) {
