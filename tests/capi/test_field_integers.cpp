@@ -71,7 +71,8 @@ TEST_F(Fields, IntegersOfPointsAreThoseOfTheVertexThatCountsMost) {
 TEST_F(Fields, IntegersGoToTheirOwnTypeOrTo64Bits) {
   const std::vector<std::uint8_t> mark(points(), 3);
   ASSERT_EQ(carry_integers("mark", TETLOD_UINT8, mark, 1, TETLOD_POINT_FIELD), TETLOD_OK);
-  ASSERT_EQ(carry("real", std::vector<double>(points(), 3), 1), TETLOD_OK);
+  const std::vector<double> threes(points(), 3);
+  ASSERT_EQ(carry("real", threes, 1), TETLOD_OK);
   run();
   std::vector<double> room(points_out(), -99);
   const tetlod_array from = array_of(TETLOD_UINT8, points(), 1, mark.data());
