@@ -39,8 +39,10 @@ BoundaryDistances::BoundaryDistances(const Surface &original, const TetMesh &mes
 void BoundaryDistances::measure_samples() {
   const TriangleTree to_mesh(mesh_.points, mesh_.boundary, leaf, job_);
   job_.parallel.for_blocks(of_sample_.size(), block, [&](std::size_t begin, std::size_t end) {
+    double usual2 = 0;
     for (std::size_t i = begin; i < end; i++) {
-      const NearestPoint nearest = to_mesh.nearest(original_.points[i]);
+      const NearestPoint nearest = to_mesh.nearest(original_.points[i], usual2);
+      usual2 = std::max(usual2, nearest.distance * nearest.distance);
       of_sample_[i] = nearest.distance;
       home_[i] = nearest.triangle;
     }

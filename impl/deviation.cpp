@@ -29,17 +29,25 @@ void for_samples(const Surface &surface, Samples samples, Memory &memory, const 
   }
 }
 
-double largest_distance(const Surface &from, const Surface &to, Samples samples, Job &job) {
+/// The square of the distance of the farthest of every `step` points, or `known`, if that is more.
+double larger_distance2(Span<const Vec3> points, std::size_t step, const TriangleTree &to, double known, Job &job) {
+  Array<double> larger2(points.size() / (step * block) + 1, known, &job.memory);
+  job.parallel.for_blocks((points.size() + step - 1) / step, block, [&](std::size_t begin, std::size_t end) {
+    double &of_block = larger2[begin / block];
+    for (std::size_t i = begin; i < end; i++) of_block = to.larger_distance2(points[i * step], of_block);
+    job.poll(0);
+  });
+  return *std::max_element(larger2.begin(), larger2.end());
+}
+
+/// Some of the points tell about how far the farthest is: of most others it is soon seen then that they are nearer.
+double larger_distance2(const Surface &from, const Surface &to, Samples samples, double known, Job &job) {
+  constexpr std::size_t sparse = 32;
   const TriangleTree nearest(to.points, to.triangles, leaf, job);
   Array<Vec3> points(&job.memory);
   for_samples(from, samples, job.memory, [&](const Vec3 &p, std::size_t) { points.push_back(p); });
-  Array<double> largest2((points.size() + block - 1) / block, 0.0, &job.memory);
-  job.parallel.for_blocks(points.size(), block, [&](std::size_t begin, std::size_t end) {
-    double &of_block = largest2[begin / block];
-    for (std::size_t i = begin; i < end; i++) of_block = nearest.larger_distance2(points[i], of_block);
-    job.poll(0);
-  });
-  return largest2.empty() ? 0 : std::sqrt(*std::max_element(largest2.begin(), largest2.end()));
+  for (std::size_t step : {sparse, std::size_t(1)}) known = larger_distance2(points, step, nearest, known, job);
+  return known;
 }
 
 TriangleInSpace spoke_of(const Star &star, std::size_t i) {
@@ -58,7 +66,7 @@ std::size_t near_spoke(const Star &star, std::size_t first, const Vec3 &p, doubl
 }  // namespace
 
 double largest_deviation(const Surface &a, const Surface &b, Samples samples, Job &job) {
-  return std::max(largest_distance(a, b, samples, job), largest_distance(b, a, samples, job));
+  return std::sqrt(larger_distance2(b, a, samples, larger_distance2(a, b, samples, 0, job), job));
 }
 
 DeviationLimit::DeviationLimit(const Surface &original, double limit, Job &job)

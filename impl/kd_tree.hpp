@@ -79,18 +79,29 @@ class KdTree {
   template <class Distance2>
   std::int32_t nearest(const Vec3 &p, double &best, const Distance2 &distance2_to) const {
     std::int32_t found = -1;
-    std::int32_t stack[max_depth];
+    struct {
+      std::int32_t node;
+      double distance2;
+    } stack[max_depth];
     int top = 0;
-    if (!nodes_.empty()) stack[top++] = 0;
+    const auto push = [&](std::int32_t node, double distance2) {
+      if (reaches(distance2, best)) stack[top++] = {node, distance2};
+    };
+    if (!nodes_.empty()) push(0, distance2(nodes_[0].box, p));
     while (top) {
-      const std::int32_t self = stack[--top];
+      const auto [self, waiting2] = stack[--top];
+      if (!reaches(waiting2, best)) continue;
       const Node &node = nodes_[std::size_t(self)];
-      if (!reaches(distance2(node.box, p), best)) continue;
       if (node.right) {
         const double left = distance2(nodes_[std::size_t(self + 1)].box, p);
         const double right = distance2(nodes_[std::size_t(node.right)].box, p);
-        stack[top++] = left < right ? node.right : self + 1;
-        stack[top++] = left < right ? self + 1 : node.right;
+        if (left < right) {
+          push(node.right, right);
+          push(self + 1, left);
+        } else {
+          push(self + 1, left);
+          push(node.right, right);
+        }
         continue;
       }
       for (std::int32_t i = node.begin; i < node.end; i++) {

@@ -9,6 +9,8 @@ namespace tetlod {
 
 namespace {
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
 double angle_between(const Vec3 &a, const Vec3 &b) { return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)); }
 
 }  // namespace
@@ -21,12 +23,21 @@ TriangleTree::TriangleTree(Span<const Vec3> points, Span<const Triangle> triangl
   tree_.build(std::move(boxes), leaf, job);
 }
 
-NearestPoint TriangleTree::nearest(const Vec3 &p) const {
+/// Of those that are no farther than the root of `most2`, which becomes the square of its distance; else -1.
+std::int32_t TriangleTree::nearest_within(const Vec3 &p, double &most2) const {
+  return tree_.nearest(p, most2, [&](std::int32_t t) { return triangle(t).distance2_to(p); });
+}
+
+NearestPoint TriangleTree::nearest(const Vec3 &p, double usual2) const {
   NearestPoint best;
-  double distance2 = std::numeric_limits<double>::infinity();
-  best.triangle = tree_.nearest(p, distance2, [&](std::int32_t t) { return triangle(t).distance2_to(p); });
+  double distance2 = usual2;
+  best.triangle = nearest_within(p, distance2);
+  if (best.triangle < 0) {
+    distance2 = infinity;
+    best.triangle = nearest_within(p, distance2);
+  }
   if (best.triangle < 0) {  // so far away that squares leave the range of doubles
-    best.distance = std::numeric_limits<double>::infinity();
+    best.distance = infinity;
     return best;
   }
   best.weights = triangle(best.triangle).weights_nearest_to(p);
@@ -35,12 +46,12 @@ NearestPoint TriangleTree::nearest(const Vec3 &p) const {
 }
 
 double TriangleTree::larger_distance2(const Vec3 &p, double known) const {
-  constexpr double no_more = -1;  // nothing is nearer, so that the search ends
-  double distance2 = std::numeric_limits<double>::infinity();
-  tree_.nearest(p, distance2, [&](std::int32_t t) {
-    const double found = triangle(t).distance2_to(p);
-    return found > known ? found : no_more;
-  });
+  constexpr double no_more = -1;  // none is nearer, so that the search ends
+  double distance2 = known;
+  const auto is_near = [&](std::int32_t t) { return triangle(t).distance2_to(p) <= known ? no_more : infinity; };
+  if (tree_.nearest(p, distance2, is_near) >= 0) return known;
+  distance2 = infinity;
+  nearest_within(p, distance2);
   return std::max(distance2, known);
 }
 

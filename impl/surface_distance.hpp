@@ -1,6 +1,7 @@
 // 3.3  A k-d tree over the triangles of a closed surface: how far is a point from it, and on which side.
 #pragma once
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 #include "geometry.hpp"
@@ -20,7 +21,8 @@ struct NearestPoint {
 class TriangleTree {
  public:
   TriangleTree(Span<const Vec3> points, Span<const Triangle> triangles, std::int64_t leaf, Job &job);
-  NearestPoint nearest(const Vec3 &p) const;
+  /// usual2: few points are farther than its root. The less it is, the sooner the others' are found.
+  NearestPoint nearest(const Vec3 &p, double usual2 = std::numeric_limits<double>::infinity()) const;
   /// The square of the distance to it, where that is more than `known`; else `known`, sooner.
   double larger_distance2(const Vec3 &p, double known) const;
   /// In how much material p is, by the triangles, but for one, on a ray to it: exact. Nothing where it is on one of
@@ -29,6 +31,7 @@ class TriangleTree {
 
  private:
   TriangleInSpace triangle(std::int32_t t) const { return {points_, triangles_[std::size_t(t)]}; }
+  std::int32_t nearest_within(const Vec3 &p, double &most2) const;
 
   Span<const Vec3> points_;
   Span<const Triangle> triangles_;

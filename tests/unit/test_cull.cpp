@@ -104,6 +104,22 @@ TEST_F(Cull, DistanceToACube) {
   }
 }
 
+/// What is said of it beforehand makes it sooner, not another.
+TEST_F(Cull, TheNearestWhateverIsUsualOrKnown) {
+  const Surface surface = random_blob(host.memory, 6, 1);
+  const TriangleTree tree(surface.points, surface.triangles, 4, host.job);
+  scatter(surface, 200);
+  scatter_near(surface, 600);
+  for (const Vec3 &p : points) {
+    const double distance = brute_nearest(surface.points, surface.triangles, p).distance;
+    for (double part : {0.0, 0.5, 2.0, 1e9}) {
+      const double other = part * distance;
+      ASSERT_NEAR(tree.nearest(p, other * other).distance, distance, 1e-12) << part;
+      ASSERT_NEAR(std::sqrt(tree.larger_distance2(p, other * other)), std::max(distance, other), 1e-12) << part;
+    }
+  }
+}
+
 TEST_F(Cull, ConvexAndRound) {
   expect_distances(sphere(host.memory, 6));
   expect_distances(torus(host.memory, 20, 12));
