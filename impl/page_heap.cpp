@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <new>
 
 namespace tetlod {
@@ -63,7 +64,7 @@ void *PageHeap::take(std::size_t bytes) noexcept {
 
 void PageHeap::give(void *block, std::size_t bytes) noexcept {
   const std::lock_guard lock(mutex_);
-  add_piece(static_cast<char *>(block), whole_pages(bytes));
+  add_piece({static_cast<char *>(block), whole_pages(bytes)});
 }
 
 void PageHeap::give_unused_back() noexcept {
@@ -72,38 +73,45 @@ void PageHeap::give_unused_back() noexcept {
 }
 
 void PageHeap::drop_pieces() noexcept {
-  while (Piece *const piece = first_) {
-    first_ = piece->next;
-    unmap(piece->begin(), piece->bytes);
-  }
+  for (const Piece &piece : pieces_) unmap(piece.begin, piece.bytes);
+  pieces_.clear();
 }
 
 /// From the first one that is large enough: low addresses have been used before.
 char *PageHeap::take_piece(std::size_t bytes) noexcept {
-  Piece **link = &first_;
-  while (*link && (*link)->bytes < bytes) link = &(*link)->next;
-  Piece *const piece = *link;
-  if (!piece) return nullptr;
-  *link = piece->bytes == bytes ? piece->next : new (piece->begin() + bytes) Piece{piece->bytes - bytes, piece->next};
-  return piece->begin();
+  const auto piece =
+      std::find_if(pieces_.begin(), pieces_.end(), [&](const Piece &some) { return some.bytes >= bytes; });
+  if (piece == pieces_.end()) return nullptr;
+  char *const begin = piece->begin;
+  *piece = {begin + bytes, piece->bytes - bytes};
+  if (piece->bytes == 0) pieces_.erase(piece);
+  return begin;
 }
 
 /// Becomes one with those before and behind it.
-void PageHeap::add_piece(char *begin, std::size_t bytes) noexcept {
-  Piece *before = nullptr, *behind = first_;
-  while (behind && behind->begin() < begin) {
-    before = behind;
-    behind = behind->next;
+void PageHeap::add_piece(Piece piece) noexcept {
+  const auto is_before = [&](const Piece &some) { return some.begin < piece.begin; };
+  auto first = std::partition_point(pieces_.begin(), pieces_.end(), is_before), last = first;
+  if (first != pieces_.begin() && std::prev(first)->end() == piece.begin) {
+    --first;
+    piece = {first->begin, first->bytes + piece.bytes};
   }
-  if (behind && begin + bytes == behind->begin()) {
-    bytes += behind->bytes;
-    behind = behind->next;
+  if (last != pieces_.end() && piece.end() == last->begin) {
+    piece.bytes += last->bytes;
+    ++last;
   }
-  if (before && before->end() == begin) {
-    before->bytes += bytes;
-    before->next = behind;
-  } else {
-    (before ? before->next : first_) = new (begin) Piece{bytes, behind};
+  insert_piece(std::size_t(pieces_.erase(first, last) - pieces_.begin()), piece);
+}
+
+/// Returns how many are inserted: an empty one is not, and where there is no memory to tell of it, it goes.
+std::size_t PageHeap::insert_piece(std::size_t place, Piece piece) noexcept {
+  if (piece.bytes == 0) return 0;
+  try {
+    pieces_.insert(pieces_.begin() + std::ptrdiff_t(place), piece);
+    return 1;
+  } catch (const std::bad_alloc &) {
+    unmap(piece.begin, piece.bytes);
+    return 0;
   }
 }
 
@@ -126,34 +134,30 @@ bool PageHeap::grow(std::size_t bytes) noexcept {
   }
   if (!begin) begin = map(size = bytes);
   if (!begin) return false;
-  add_piece(begin, size);
+  add_piece({begin, size});
   return true;
 }
 
 /// The whole huge pages of pieces, which are all too small, come to lie from `to` on, so many bytes at most: the system
 /// need not clear others. Returns the place to which it lets none move, where nothing may be mapped then; else null.
 char *PageHeap::move_pieces(char *to, std::size_t bytes) noexcept {
-  const auto keep = [](Piece **&link, char *begin, char *end) {
-    if (begin == end) return;
-    *link = new (begin) Piece{std::size_t(end - begin), *link};
-    link = &(*link)->next;
-  };
-  for (Piece **link = &first_; *link && bytes > 0;) {
-    char *const begin = (*link)->begin(), *const end = (*link)->end();
-    char *const first = begin + bytes_to_huge_page(begin), *const last = end - bytes_in_huge_page(end);
+  for (std::size_t i = 0; i < pieces_.size() && bytes > 0;) {
+    const Piece piece = pieces_[i];
+    char *const first = piece.begin + bytes_to_huge_page(piece.begin), *const last = piece.end() -
+                                                                                     bytes_in_huge_page(piece.end());
     if (first >= last) {
-      link = &(*link)->next;
+      i++;
       continue;
     }
-    *link = (*link)->next;
     char *at = first;
     while (at < last && bytes > 0 && move_huge_page(at, to)) {
       at += huge_page;
       to += huge_page;
       bytes -= huge_page;
     }
-    keep(link, begin, first);
-    keep(link, at, end);
+    pieces_.erase(pieces_.begin() + std::ptrdiff_t(i));
+    i += insert_piece(i, {piece.begin, std::size_t(first - piece.begin)});
+    i += insert_piece(i, {at, std::size_t(piece.end() - at)});
     if (at < last && bytes > 0) return to;
   }
   return nullptr;

@@ -3,6 +3,7 @@
 #pragma once
 #include <cstddef>
 #include <mutex>
+#include <vector>
 
 namespace tetlod {
 
@@ -22,23 +23,24 @@ class PageHeap {
   void give_unused_back() noexcept;  ///< to the system
 
  private:
-  /// A piece that no block has; it begins with this.
+  /// A piece that no block has. What tells of it lies elsewhere, as the system clears a page that is touched, while
+  /// other threads wait here.
   struct Piece {
+    char *begin;
     std::size_t bytes;
-    Piece *next;  ///< with a higher address, and not right behind this one
-    char *begin() { return reinterpret_cast<char *>(this); }
-    char *end() { return begin() + bytes; }
+    char *end() const { return begin + bytes; }
   };
 
   char *take_piece(std::size_t bytes) noexcept;
-  void add_piece(char *begin, std::size_t bytes) noexcept;
+  void add_piece(Piece piece) noexcept;
+  std::size_t insert_piece(std::size_t place, Piece piece) noexcept;
   bool grow(std::size_t bytes) noexcept;
   char *map_moved(std::size_t bytes) noexcept;
   char *move_pieces(char *to, std::size_t bytes) noexcept;
   void drop_pieces() noexcept;
 
   std::mutex mutex_;
-  Piece *first_ = nullptr;
+  std::vector<Piece> pieces_;  ///< by their addresses, none right behind another
 };
 
 }  // namespace tetlod

@@ -13,16 +13,17 @@ namespace tetlod {
 constexpr std::size_t stretch = 1 << 14;
 
 /// Room for so many items, which the system gives page by page when they are touched first: that takes longer than to
-/// write to them, unless all threads touch some.
+/// write to them, unless all threads touch some, each whole huge pages, which two at a time would both clear.
 template <class T>
 void reserve(Array<T> &array, std::size_t size, Job &job) {
-  constexpr std::size_t page = 4096, some = std::size_t(1) << 20;
+  constexpr std::size_t page = 4096, huge_page = std::size_t(1) << 21;
   array.reserve(size);
   const std::size_t begin = array.size() * sizeof(T), end = size * sizeof(T);
-  if (job.parallel.threads() == 1 || end < begin + some) return;
+  if (job.parallel.threads() == 1 || end < begin + huge_page) return;
   auto *const bytes = reinterpret_cast<volatile unsigned char *>(array.data());
-  job.parallel.for_blocks(end - begin, some, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; i += page) bytes[begin + i] = 0;
+  const std::size_t before = reinterpret_cast<std::uintptr_t>(bytes + begin) % huge_page;
+  job.parallel.for_blocks(end - begin + before, huge_page, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = std::max(first, before); i < last; i += page) bytes[begin + i - before] = 0;
     job.poll(0);
   });
 }
