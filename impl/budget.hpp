@@ -23,15 +23,13 @@ inline double ratio_of(const Options &options) {
 constexpr double small_mesh = 1e5;
 
 /// A coarse mesh by collapsing edges is more accurate; one from samples is there sooner, where the mesh is large, no
-/// thin one whose boundary takes longer, and little of it is kept, or so few tets that TetGen makes them soon. Samples
-/// do not stretch: a field that hardly changes along some direction asks for tets that do. A bound alone asks for
-/// accuracy.
+/// thin one whose boundary takes longer, and little of it is kept. Samples do not stretch: a field that hardly changes
+/// along some direction asks for tets that do. A bound alone asks for accuracy.
 inline bool samples_sooner(const Options &options, const Report &report) {
-  constexpr double soon_made = 9000, little = 0.03, most = 0.045, thin = 0.125, stretched = 0.004;
+  constexpr double little = 0.03, thin = 0.125, stretched = 0.004;
   const double tets = double(report.tets_in), ratio = options.asked_ratio();
   return tets >= small_mesh && report.least_change >= stretched &&
-         double(report.boundary_triangles_in) <= thin * tets && ratio > 0 &&
-         ratio <= std::clamp(soon_made / tets, little, most);
+         double(report.boundary_triangles_in) <= thin * tets && ratio > 0 && ratio <= little;
 }
 
 inline bool collapses_edges(const Options &options, const Report &report) {
