@@ -143,8 +143,8 @@ bool PageHeap::grow(std::size_t bytes) noexcept {
 char *PageHeap::move_pieces(char *to, std::size_t bytes) noexcept {
   for (std::size_t i = 0; i < pieces_.size() && bytes > 0;) {
     const Piece piece = pieces_[i];
-    char *const first = piece.begin + bytes_to_huge_page(piece.begin), *const last = piece.end() -
-                                                                                     bytes_in_huge_page(piece.end());
+    char *const first = piece.begin + bytes_to_huge_page(piece.begin);
+    char *const last = piece.end() - bytes_in_huge_page(piece.end());
     if (first >= last) {
       i++;
       continue;
