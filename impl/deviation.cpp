@@ -29,24 +29,26 @@ void for_samples(const Surface &surface, Samples samples, Memory &memory, const 
   }
 }
 
-/// The square of the distance of the farthest of every `step` points, or `known`, if that is more.
-double larger_distance2(Span<const Vec3> points, std::size_t step, const TriangleTree &to, double known, Job &job) {
-  Array<double> larger2(points.size() / (step * block) + 1, known, &job.memory);
+/// The distance of the farthest of every `step` points, or `known`, if that is more.
+double farthest(Span<const Vec3> points, std::size_t step, const TriangleTree &to, double known, Job &job) {
+  Array<double> of_blocks(points.size() / (step * block) + 1, known, &job.memory);
   job.parallel.for_blocks((points.size() + step - 1) / step, block, [&](std::size_t begin, std::size_t end) {
-    double &of_block = larger2[begin / block];
-    for (std::size_t i = begin; i < end; i++) of_block = to.larger_distance2(points[i * step], of_block);
+    double &most = of_blocks[begin / block];
+    for (std::size_t i = begin; i < end; i++)
+      if (const Vec3 &p = points[i * step]; !to.is_within(p, most * most))
+        most = std::max(most, to.nearest(p).distance);
     job.poll(0);
   });
-  return *std::max_element(larger2.begin(), larger2.end());
+  return *std::max_element(of_blocks.begin(), of_blocks.end());
 }
 
 /// Some of the points tell about how far the farthest is: of most others it is soon seen then that they are nearer.
-double larger_distance2(const Surface &from, const Surface &to, Samples samples, double known, Job &job) {
+double farthest(const Surface &from, const Surface &to, Samples samples, double known, Job &job) {
   constexpr std::size_t sparse = 32;
   const TriangleTree nearest(to.points, to.triangles, leaf, job);
   Array<Vec3> points(&job.memory);
   for_samples(from, samples, job.memory, [&](const Vec3 &p, std::size_t) { points.push_back(p); });
-  for (std::size_t step : {sparse, std::size_t(1)}) known = larger_distance2(points, step, nearest, known, job);
+  for (std::size_t step : {sparse, std::size_t(1)}) known = farthest(points, step, nearest, known, job);
   return known;
 }
 
@@ -66,7 +68,7 @@ std::size_t near_spoke(const Star &star, std::size_t first, const Vec3 &p, doubl
 }  // namespace
 
 double largest_deviation(const Surface &a, const Surface &b, Samples samples, Job &job) {
-  return std::sqrt(larger_distance2(b, a, samples, larger_distance2(a, b, samples, 0, job), job));
+  return farthest(b, a, samples, farthest(a, b, samples, 0, job), job);
 }
 
 DeviationLimit::DeviationLimit(const Surface &original, double limit, Job &job)
@@ -97,7 +99,7 @@ bool DeviationLimit::is_passed(const Star &star) {
   return false;
 }
 
-bool DeviationLimit::is_far(const Vec3 &p) const { return !(nearest_.nearest(p).distance <= limit_); }
+bool DeviationLimit::is_far(const Vec3 &p) const { return !nearest_.is_within(p, limit_ * limit_); }
 
 void DeviationLimit::move_on(const Star &star) {
   for (std::int32_t t : star.old_faces) first_[std::size_t(t)] = -1;

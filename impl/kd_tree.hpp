@@ -74,8 +74,8 @@ class KdTree {
     return false;
   }
 
-  /// The item with the least distance2_to(item), searched nearest box first; -1 when the tree is empty or nothing is
-  /// nearer than sqrt(best). `best` becomes the squared distance. Ties go to the lower item.
+  /// The item with the least distance2_to(item), searched nearest box first; -1 when the tree is empty or all are
+  /// farther than sqrt(best). `best` becomes the squared distance of what is found. Ties go to the lower item.
   template <class Distance2>
   std::int32_t nearest(const Vec3 &p, double &best, const Distance2 &distance2_to) const {
     std::int32_t found = -1;

@@ -45,14 +45,11 @@ NearestPoint TriangleTree::nearest(const Vec3 &p, double usual2) const {
   return best;
 }
 
-double TriangleTree::larger_distance2(const Vec3 &p, double known) const {
+bool TriangleTree::is_within(const Vec3 &p, double most2) const {
   constexpr double no_more = -1;  // none is nearer, so that the search ends
-  double distance2 = known;
-  const auto is_near = [&](std::int32_t t) { return triangle(t).distance2_to(p) <= known ? no_more : infinity; };
-  if (tree_.nearest(p, distance2, is_near) >= 0) return known;
-  distance2 = infinity;
-  nearest_within(p, distance2);
-  return std::max(distance2, known);
+  double best = most2;
+  const auto end_or_go_on = [&](std::int32_t t) { return triangle(t).distance2_to(p) <= most2 ? no_more : infinity; };
+  return tree_.nearest(p, best, end_or_go_on) >= 0;
 }
 
 std::optional<int> TriangleTree::depth(const Vec3 &p, std::int32_t but) const {

@@ -104,19 +104,24 @@ TEST_F(Cull, DistanceToACube) {
   }
 }
 
-/// What is said of it beforehand makes it sooner, not another.
-TEST_F(Cull, TheNearestWhateverIsUsualOrKnown) {
+/// What is said of it beforehand makes it sooner, not another; also where it is none.
+TEST_F(Cull, TheNearestWhateverIsUsual) {
   const Surface surface = random_blob(host.memory, 6, 1);
   const TriangleTree tree(surface.points, surface.triangles, 4, host.job);
+  points.assign(surface.points.begin(), surface.points.end());
   scatter(surface, 200);
   scatter_near(surface, 600);
   for (const Vec3 &p : points) {
-    const double distance = brute_nearest(surface.points, surface.triangles, p).distance;
-    for (double part : {0.0, 0.5, 2.0, 1e9}) {
-      const double other = part * distance;
-      ASSERT_NEAR(tree.nearest(p, other * other).distance, distance, 1e-12) << part;
-      ASSERT_NEAR(std::sqrt(tree.larger_distance2(p, other * other)), std::max(distance, other), 1e-12) << part;
+    const NearestPoint plain = tree.nearest(p);
+    const double distance2 = plain.distance * plain.distance;
+    ASSERT_NEAR(plain.distance, brute_nearest(surface.points, surface.triangles, p).distance, 1e-12);
+    for (double usual2 : {0.0, 0.5 * distance2, distance2, 2 * distance2, 1e9}) {
+      const NearestPoint sooner = tree.nearest(p, usual2);
+      ASSERT_EQ(sooner.triangle, plain.triangle) << usual2;
+      ASSERT_EQ(sooner.distance, plain.distance) << usual2;
     }
+    EXPECT_EQ(tree.is_within(p, 0.99 * distance2), plain.distance == 0);
+    EXPECT_TRUE(tree.is_within(p, 1.01 * distance2));
   }
 }
 

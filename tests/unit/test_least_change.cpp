@@ -67,6 +67,9 @@ TEST(SamplesSooner, WhereLittleOfALargeMeshIsKept) {
   EXPECT_FALSE(at(0));
   report.least_change = 0.001;
   EXPECT_FALSE(at(0.02));
+  report.least_change = 0.0081;
+  report.boundary_triangles_in = 14000;
+  EXPECT_FALSE(at(0.02));
   report = {};
   report.tets_in = 50000;
   EXPECT_FALSE(at(0.02));

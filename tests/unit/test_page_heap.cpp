@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "../capi/failing_new.hpp"
 #include "memory.hpp"
 #include "page_heap.hpp"
 
@@ -127,6 +128,28 @@ TEST(PageHeap, WithoutMemoryThereIsNoBlock) {
   const Block a = take(heap, 1 << 20, 1);
   ASSERT_NE(a.data, nullptr);
   heap.give(a.data, a.bytes);
+}
+
+/// What it has no memory to list.
+TEST(PageHeap, GivesToTheSystem) {
+  PageHeap heap;
+  constexpr std::size_t huge_page = std::size_t(1) << 21;
+  std::vector<Block> blocks;
+  for (unsigned char i = 0; i < 9; i++) blocks.push_back(take(heap, huge_page, i));
+  int dropped = 0;
+  for (std::size_t i = 0; i < 9; i += 2) {
+    tetlod_test::fail_new_after(0);
+    heap.give(blocks[i].data, huge_page);
+    tetlod_test::fail_new_after(-1);
+    if (!tetlod_test::new_failed()) continue;
+    dropped++;
+    EXPECT_FALSE(is_mapped(blocks[i].data));
+  }
+  EXPECT_GT(dropped, 0);
+  for (std::size_t i = 1; i < 9; i += 2) {
+    EXPECT_TRUE(blocks[i].keeps_mark());
+    heap.give(blocks[i].data, huge_page);
+  }
 }
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)

@@ -40,6 +40,16 @@ TEST_P(WholeArrays, KeepInOrder) {
     }
 }
 
+/// Of several huge pages, which threads touch: nothing else is written to.
+TEST_P(WholeArrays, GrowOverManyPages) {
+  for (std::size_t before : {0, 1, 300001}) {
+    Array<double> numbers(before, 0.5, &host.memory);
+    grow(numbers, 1000003, host.job, 1.5);
+    ASSERT_EQ(numbers.size(), 1000003U);
+    for (std::size_t i = 0; i < numbers.size(); i++) ASSERT_EQ(numbers[i], i < before ? 0.5 : 1.5) << i;
+  }
+}
+
 TEST_P(WholeArrays, PartsAddUp) {
   for (std::size_t size : sizes) {
     const Array<std::int32_t> numbers = random_numbers(size);
