@@ -12,7 +12,7 @@ namespace tetlod {
 
 namespace {
 
-constexpr std::size_t huge_page = std::size_t(1) << 21;
+constexpr std::size_t huge_page = PageHeap::huge_page;
 
 std::size_t round_up(std::size_t bytes, std::size_t to) { return (bytes + to - 1) / to * to; }
 

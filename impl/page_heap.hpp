@@ -15,6 +15,9 @@ class PageHeap {
   PageHeap(const PageHeap &) = delete;
   PageHeap &operator=(const PageHeap &) = delete;
 
+  /// What the system clears at once, where it has huge pages.
+  static constexpr std::size_t huge_page = std::size_t(1) << 21;
+
   /// Blocks of at least so many bytes are worth it; they lie at the begin of a page.
   static constexpr std::size_t worthwhile = std::size_t(1) << 16;
 

@@ -35,8 +35,8 @@ struct Original {
   int exponent = 0;                   ///< the view's coordinates are the caller's divided by 2^exponent
   double scalar_min = 0, scalar_max = 0;  ///< over the vertices that tets of the view have
   double range = 0;  ///< of the scalars; where they are constant and another field is not, something in its place
-  std::size_t unequal_field =
-      0;    ///< the first of those whose errors, or the scalars' beside them, are nothing; 0: none
+  /// The first of those whose errors are nothing beside the scalars', or theirs beside its own; 0: none.
+  std::size_t unequal_field = 0;
   Box box;  ///< of the vertices that tets of the view have
 
   HostNumbers numbers() const { return {index_base, {}, tet_number}; }

@@ -32,10 +32,7 @@ NearestPoint TriangleTree::nearest(const Vec3 &p, double usual2) const {
   NearestPoint best;
   double distance2 = usual2;
   best.triangle = nearest_within(p, distance2);
-  if (best.triangle < 0) {
-    distance2 = infinity;
-    best.triangle = nearest_within(p, distance2);
-  }
+  if (best.triangle < 0) best.triangle = nearest_within(p, distance2 = infinity);
   if (best.triangle < 0) {  // so far away that squares leave the range of doubles
     best.distance = infinity;
     return best;

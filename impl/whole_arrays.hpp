@@ -16,7 +16,7 @@ constexpr std::size_t stretch = 1 << 14;
 /// write to them, unless all threads touch some, each whole huge pages, which two at a time would both clear.
 template <class T>
 void reserve(Array<T> &array, std::size_t size, Job &job) {
-  constexpr std::size_t page = 4096, huge_page = std::size_t(1) << 21;
+  constexpr std::size_t page = 4096, huge_page = PageHeap::huge_page;
   array.reserve(size);
   const std::size_t begin = array.size() * sizeof(T), end = size * sizeof(T);
   if (job.parallel.threads() == 1 || end < begin + huge_page) return;

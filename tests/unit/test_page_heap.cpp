@@ -133,7 +133,7 @@ TEST(PageHeap, WithoutMemoryThereIsNoBlock) {
 /// What it has no memory to list.
 TEST(PageHeap, GivesToTheSystem) {
   PageHeap heap;
-  constexpr std::size_t huge_page = std::size_t(1) << 21;
+  constexpr std::size_t huge_page = PageHeap::huge_page;
   std::vector<Block> blocks;
   for (unsigned char i = 0; i < 9; i++) blocks.push_back(take(heap, huge_page, i));
   int dropped = 0;
