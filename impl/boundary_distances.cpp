@@ -9,20 +9,19 @@ namespace tetlod {
 
 namespace {
 
-constexpr std::int64_t leaf = 4;
 constexpr std::size_t block = 256;
 /// Of the diagonal.
 constexpr double rounding = 1e-12;
 
 }  // namespace
 
-BoundaryDistances::BoundaryDistances(const Surface &original, const TetMesh &mesh, Span<const std::int32_t> origin,
-                                     Job &job)
+BoundaryDistances::BoundaryDistances(const Surface &original, const TriangleTree &to_original, const TetMesh &mesh,
+                                     Span<const std::int32_t> origin, Job &job)
     : original_(original),
       mesh_(mesh),
       job_(job),
       of_rounding_(rounding * box_of(original.points).diagonal()),
-      to_original_(original.points, original.triangles, leaf, job),
+      to_original_(to_original),
       of_sample_(original.points.size(), 0.0, &job.memory),
       of_vertex_(mesh.points.size(), 0.0, &job.memory),
       of_middle_(mesh.boundary.size(), 0.0, &job.memory),
@@ -37,7 +36,8 @@ BoundaryDistances::BoundaryDistances(const Surface &original, const TetMesh &mes
 }
 
 void BoundaryDistances::measure_samples() {
-  const TriangleTree to_mesh(mesh_.points, mesh_.boundary, leaf, job_);
+  TreeOnDemand tree(mesh_.points, mesh_.boundary);
+  const TriangleTree &to_mesh = tree.get(job_);
   job_.parallel.for_blocks(of_sample_.size(), block, [&](std::size_t begin, std::size_t end) {
     double usual2 = 0;
     for (std::size_t i = begin; i < end; i++) {
@@ -100,7 +100,8 @@ Array<Apart> BoundaryDistances::worst(double least, std::size_t most) const {
 /// Original vertices that stayed where they were may be nearer to what has changed: the largest are looked at again.
 double BoundaryDistances::largest() const {
   const auto is_less = [](const Apart &a, const Apart &b) { return b < a; };
-  const TriangleTree to_mesh(mesh_.points, mesh_.boundary, leaf, job_);
+  TreeOnDemand tree(mesh_.points, mesh_.boundary);
+  const TriangleTree &to_mesh = tree.get(job_);
   Array<Apart> largest(&job_.memory);
   for (std::size_t i = 0; i < of_sample_.size(); i++) largest.push_back({of_sample_[i], i, Apart::at_sample});
   std::make_heap(largest.begin(), largest.end(), is_less);

@@ -30,8 +30,9 @@ struct Aim {
 
 class BoundaryDistances {
  public:
-  /// origin: as in lower_deviation.
-  BoundaryDistances(const Surface &original, const TetMesh &mesh, Span<const std::int32_t> origin, Job &job);
+  /// to_original: its tree. origin: as in lower_deviation.
+  BoundaryDistances(const Surface &original, const TriangleTree &to_original, const TetMesh &mesh,
+                    Span<const std::int32_t> origin, Job &job);
 
   /// Those of more than `least`, largest first, but no more than so many.
   Array<Apart> worst(double least, std::size_t most) const;
@@ -74,7 +75,7 @@ class BoundaryDistances {
   const TetMesh &mesh_;
   Job &job_;
   double of_rounding_;
-  TriangleTree to_original_;
+  const TriangleTree &to_original_;
   Array<double> of_sample_, of_vertex_, of_middle_;
   Array<std::int32_t> first_, next_, home_;  // lists of the original's vertices, by nearest triangle
   Array<Home> fresh_homes_;                  // of the last that suited

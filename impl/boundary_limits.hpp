@@ -10,7 +10,9 @@ namespace tetlod {
 class BoundaryLimits {
  public:
   /// No collapse takes a sample farther from the original, see DeviationLimit.
-  void limit_deviation(const Surface &original, double limit, Job &job) { deviation_.emplace(original, limit, job); }
+  void limit_deviation(const Surface &original, const TriangleTree &nearest, double limit, Job &job) {
+    deviation_.emplace(original, nearest, limit, job);
+  }
   /// No collapse takes the surface through itself, see CrossingGuard.
   void guard_crossings(const Array<Vec3> &points, const Array<Triangle> &triangles, Span<const std::int32_t> id,
                        Job &job) {

@@ -26,16 +26,16 @@ template <std::size_t m>
 class SolidDecimator {
  public:
   /// states: those that are kept; null: none are.
-  SolidDecimator(const MeshView &original, const Surface &surface, const SolidOptions &options,
-                 const FieldsAsLengths<m> &fields, CollapseStart<m> &&start, Array<SolidState<m>> *states, Job &job)
-      : original_(original),
+  SolidDecimator(const OriginalSolid &original, const SolidOptions &options, const FieldsAsLengths<m> &fields,
+                 CollapseStart<m> &&start, Array<SolidState<m>> *states, Job &job)
+      : original_(original.mesh),
         fields_(fields),
         options_(options),
         job_(job),
         mesh_(std::move(start.solid)),
         progress_(std::move(start.progress)),
         costs_(mesh_, progress_),
-        places_(mesh_, options.holds_bound, surface.points.size()),
+        places_(mesh_, options.holds_bound, original.surface.points.size()),
         states_(states),
         count_(std::int64_t(mesh_.tets.size())),
         blocks_(mesh_.points.size(), job.memory),
@@ -51,7 +51,7 @@ class SolidDecimator {
     }
     if (!options.holds_bound) places_.relax(progress_.relaxed);
     if (options.hasty) progress_.far = SolidProgress::far_in_haste;
-    if (options.max_deviation > 0) limits_.limit_deviation(surface, options.max_deviation, job);
+    if (options.max_deviation > 0) limits_.limit_deviation(original.surface, original.tree.get(job), options.max_deviation, job);
   }
 
   void run() {
@@ -381,12 +381,13 @@ class SolidDecimator {
 
 std::int64_t decimate_solid(const OriginalSolid &original, const SolidOptions &options, SolidHistory &history, Job &job,
                             TetMesh &mesh, Array<std::int32_t> &origin) {
+  original.tree.drop();  // the memory is wanted
   return with_fields(original.mesh.fields, [&](auto m) {
     const FieldsAsLengths<m> fields(original.mesh, box_of(original.surface.points).diagonal(), job);
     CollapseStart<m> start = begin_collapses<m>(original.mesh, original.boundary, fields, options, history, job);
     const std::size_t saved = start.solid.measures.vertices - start.solid.points.size();
     const bool may_warm = start.progress.follows();
-    SolidDecimator<m> decimator(original.mesh, original.surface, options, fields, std::move(start),
+    SolidDecimator<m> decimator(original, options, fields, std::move(start),
                                 start.keeps_states ? &history.states<m>(job.memory) : nullptr, job);
     decimator.run();
     decimator.write(mesh, origin);

@@ -7,6 +7,7 @@
 #include "job.hpp"
 #include "mesh.hpp"
 #include "solid_state.hpp"
+#include "surface_distance.hpp"
 #include "surface_topology.hpp"
 
 namespace tetlod {
@@ -17,6 +18,7 @@ struct OriginalSolid {
   const Boundary &boundary;
   const Surface &surface;           ///< the boundary with points of its own
   const SurfaceTopology &topology;  ///< of that
+  TreeOnDemand &tree;               ///< of that
 };
 
 struct SolidOptions {

@@ -83,7 +83,7 @@ bool lower(const OriginalSolid &original, const SolidOptions &options, double le
   lowered.origin = coarse.origin;
   lowered.reused = coarse.reused;
   const Array<std::uint8_t> stay = vertices_that_stay(options, job.memory);
-  lowered.deviation = lower_deviation(original.surface, stay, least, most, job, lowered.mesh, lowered.origin);
+  lowered.deviation = lower_deviation(original.surface, original.tree.get(job), stay, least, most, job, lowered.mesh, lowered.origin);
   check(original, options, job, lowered);
   const bool is_sound = lowered.is_sound;
   if (is_sound) coarse = std::move(lowered);
@@ -97,7 +97,8 @@ CoarseSolid decimate_and_check(const OriginalSolid &original, const SolidOptions
   if (lowered > 0 && lower(original, options, 0, lowered, job, coarse)) return coarse;
   check(original, options, job, coarse);
   if (!coarse.is_sound) return coarse;
-  coarse.deviation = largest_deviation(original.surface, coarse.surface, samples_for(options.max_deviation), job);
+  coarse.deviation =
+      largest_deviation(original.surface, original.tree, coarse.surface, samples_for(options.max_deviation), job);
   const double far = far_off * box_of(original.surface.points).diagonal();
   if (lowered == 0 && options.max_deviation <= 0 && coarse.deviation > far)
     lower(original, options, far / 2, std::int64_t(coarse.mesh.tets.size()), job, coarse);

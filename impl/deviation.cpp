@@ -8,7 +8,6 @@ namespace tetlod {
 
 namespace {
 
-constexpr std::int64_t leaf = 4;
 constexpr std::size_t block = 256;
 
 /// visit(point, triangle), the triangle being one of those that have the point.
@@ -43,12 +42,11 @@ double farthest(Span<const Vec3> points, std::size_t step, const TriangleTree &t
 }
 
 /// Some of the points tell about how far the farthest is: of most others it is soon seen then that they are nearer.
-double farthest(const Surface &from, const Surface &to, Samples samples, double known, Job &job) {
+double farthest(const Surface &from, const TriangleTree &to, Samples samples, double known, Job &job) {
   constexpr std::size_t sparse = 32;
-  const TriangleTree nearest(to.points, to.triangles, leaf, job);
   Array<Vec3> points(&job.memory);
   for_samples(from, samples, job.memory, [&](const Vec3 &p, std::size_t) { points.push_back(p); });
-  for (std::size_t step : {sparse, std::size_t(1)}) known = farthest(points, step, nearest, known, job);
+  for (std::size_t step : {sparse, std::size_t(1)}) known = farthest(points, step, to, known, job);
   return known;
 }
 
@@ -67,13 +65,14 @@ std::size_t near_spoke(const Star &star, std::size_t first, const Vec3 &p, doubl
 
 }  // namespace
 
-double largest_deviation(const Surface &a, const Surface &b, Samples samples, Job &job) {
-  return farthest(b, a, samples, farthest(a, b, samples, 0, job), job);
+double largest_deviation(const Surface &a, TreeOnDemand &tree_of_a, const Surface &b, Samples samples, Job &job) {
+  const double from_a = farthest(a, TreeOnDemand(b.points, b.triangles).get(job), samples, 0, job);
+  return farthest(b, tree_of_a.get(job), samples, from_a, job);
 }
 
-DeviationLimit::DeviationLimit(const Surface &original, double limit, Job &job)
+DeviationLimit::DeviationLimit(const Surface &original, const TriangleTree &nearest, double limit, Job &job)
     : limit_(limit),
-      nearest_(original.points, original.triangles, leaf, job),
+      nearest_(nearest),
       samples_(&job.memory),
       first_(original.triangles.size(), -1, &job.memory),
       next_(&job.memory),

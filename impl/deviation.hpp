@@ -16,14 +16,14 @@ enum class Samples {
 inline Samples samples_for(double limit) { return limit > 0 ? Samples::between_too : Samples::vertices; }
 
 /// The largest distance from a sample of either surface to the other surface.
-double largest_deviation(const Surface &a, const Surface &b, Samples samples, Job &job);
+double largest_deviation(const Surface &a, TreeOnDemand &tree_of_a, const Surface &b, Samples samples, Job &job);
 
 /// Keeps all samples of the original surface within a distance of the triangles that stand for them, and those of the
 /// simplified one within it of the original. Each triangle has a list of the original's samples that it stands for.
 class DeviationLimit {
  public:
-  /// original: must live as long; its triangles are those that the decimation begins with, by number.
-  DeviationLimit(const Surface &original, double limit, Job &job);
+  /// original: its triangles are those that the decimation begins with, by number. nearest: its tree; must live as long.
+  DeviationLimit(const Surface &original, const TriangleTree &nearest, double limit, Job &job);
 
   /// Whether the collapse would take the surface too far.
   bool is_passed(const Star &star);
@@ -34,7 +34,7 @@ class DeviationLimit {
   bool is_far(const Vec3 &p) const;
 
   double limit_;
-  TriangleTree nearest_;
+  const TriangleTree &nearest_;
   Array<Vec3> samples_;                                 // of the original
   Array<std::int32_t> first_, next_;                    // lists of them, by triangle
   Array<std::pair<std::int32_t, std::int32_t>> homes_;  // of the collapse looked at last: sample, triangle

@@ -37,14 +37,14 @@ struct Change {
 
 class DeviationLowering {
  public:
-  DeviationLowering(const Surface &original, Span<const std::uint8_t> stays, Job &job, TetMesh &mesh,
-                    Array<std::int32_t> &origin)
+  DeviationLowering(const Surface &original, const TriangleTree &to_original, Span<const std::uint8_t> stays, Job &job,
+                    TetMesh &mesh, Array<std::int32_t> &origin)
       : original_(original),
         stays_(stays),
         job_(job),
         mesh_(mesh),
         origin_(origin),
-        distances_(original, mesh, origin, job),
+        distances_(original, to_original, mesh, origin, job),
         touched_(&job.memory),
         change_(job.memory),
         volume6_(volume6_of(original.points, original.triangles)),
@@ -256,9 +256,9 @@ class DeviationLowering {
 
 }  // namespace
 
-double lower_deviation(const Surface &original, Span<const std::uint8_t> stays, double least, std::int64_t most,
-                       Job &job, TetMesh &mesh, Array<std::int32_t> &origin) {
-  return DeviationLowering(original, stays, job, mesh, origin).run(least, most);
+double lower_deviation(const Surface &original, const TriangleTree &to_original, Span<const std::uint8_t> stays,
+                       double least, std::int64_t most, Job &job, TetMesh &mesh, Array<std::int32_t> &origin) {
+  return DeviationLowering(original, to_original, stays, job, mesh, origin).run(least, most);
 }
 
 }  // namespace tetlod

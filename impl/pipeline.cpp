@@ -179,7 +179,8 @@ class Pipeline : private Beginning {
 
   CoarseSolid collapse(const SolidOptions &options, SolidHistory &history) {
     const StageTimer timer(Stage::decimate, job_, report_);
-    const OriginalSolid original{original_.view, boundary_, prepared_.surface(job_), prepared_.topology(job_)};
+    const OriginalSolid original{original_.view, boundary_, prepared_.surface(job_), prepared_.topology(job_),
+                                 prepared_.tree(job_)};
     const std::int64_t lowered = collapse_sizes(budget_, options_, report_).lowered;
     return decimate_solid_and_check(original, options, lowered, history, job_);
   }
@@ -231,7 +232,7 @@ class Pipeline : private Beginning {
     const std::int64_t before = tets_before_lowering(budget_, options_, report_, collapsed, mesh_.tets.size());
     const RefineOptions options{
         budget_.tets, before, report_.steiner_points, follows_field,    rounds_of(options_, report_),
-        bound,        kept,   boundary_.triangles,    deviation_limit()};
+        bound,        kept,   &prepared_.tree(job_),  deviation_limit()};
     RefineReport refined(job_.memory);
     // A bound is looked for all the same: the sides of a slit may be nearer than weights are rounded by.
     if (bound > 0 || !is_original) refined = tetlod::refine(original_.view, options, job_, mesh_);

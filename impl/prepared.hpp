@@ -50,6 +50,8 @@ class Prepared {
   /// The boundary with its values, and how it hangs together.
   const Surface &surface(Job &job);
   const SurfaceTopology &topology(Job &job);
+  /// Over that boundary, for a run.
+  TreeOnDemand &tree(Job &job);
 
   struct Decimated {
     std::int64_t cleaned_edges = 0;
@@ -97,6 +99,7 @@ class Prepared {
   Fingerprint stamp_;
   Surface surface_;
   SurfaceTopology topology_;
+  TreeOnDemand tree_;
   Logged careless_, careful_;
   SolidHistory history_;
   Way last_;

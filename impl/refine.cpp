@@ -1,7 +1,6 @@
 #include "refine.hpp"
 
 #include <algorithm>
-#include <optional>
 
 #include "adaptive_mesh.hpp"
 #include "beyond_outside.hpp"
@@ -14,7 +13,6 @@
 #include "place_probes.hpp"
 #include "remove_vertices.hpp"
 #include "sort_by_place.hpp"
-#include "surface_distance.hpp"
 
 namespace tetlod {
 
@@ -146,10 +144,7 @@ class Refinement {
   }
 
   /// From the original's boundary.
-  double deviation_at(const Vec3 &p) {
-    if (!nearest_) nearest_.emplace(original_.points, options_.boundary, 8, job_);
-    return nearest_->nearest(p).distance;
-  }
+  double deviation_at(const Vec3 &p) const { return options_.boundary->get(job_).nearest(p).distance; }
 
   void write() {
     Array<std::int32_t> number(mesh_.points.size(), -1, &job_.memory);
@@ -182,7 +177,6 @@ class Refinement {
   Job &job_;
   TetMesh &out_;
   AdaptiveMesh<m> mesh_;
-  std::optional<TriangleTree> nearest_;
   std::size_t first_inserted_ = 0;
   RefineReport report_;
 };

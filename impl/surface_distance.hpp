@@ -38,6 +38,25 @@ class TriangleTree {
   KdTree tree_;
 };
 
+/// That of a surface, which stays as it is, from when it is first asked for until it is dropped.
+class TreeOnDemand {
+ public:
+  TreeOnDemand() = default;
+  TreeOnDemand(Span<const Vec3> points, Span<const Triangle> triangles) : points_(points), triangles_(triangles) {}
+
+  const TriangleTree &get(Job &job) {
+    constexpr std::int64_t leaf = 4;
+    if (!tree_) tree_.emplace(points_, triangles_, leaf, job);
+    return *tree_;
+  }
+  void drop() { tree_.reset(); }
+
+ private:
+  Span<const Vec3> points_;
+  Span<const Triangle> triangles_;
+  std::optional<TriangleTree> tree_;
+};
+
 /// Tells inside from outside for every point that is not on the surface itself. The side is that of the angle-weighted
 /// pseudonormal at the nearest point (Baerentzen and Aanaes 2005); where the surface touches itself that has no
 /// meaning, and a ray decides.

@@ -29,6 +29,7 @@ class DecimateSolid : public testing::Test {
   Boundary boundary{host.memory};
   Surface surface{host.memory};
   SurfaceTopology topology{host.memory};
+  TreeOnDemand tree;
   SolidOptions options;
   std::int64_t lowered = 0;  ///< as decimate_solid_and_check has it
   std::string failure;       ///< of the last decimation
@@ -41,6 +42,7 @@ class DecimateSolid : public testing::Test {
     extract_boundary(original.view(), host.job, boundary);
     make_surface(original.view(), boundary.triangles, host.job, surface);
     find_topology(surface.points, surface.triangles, host.job, topology);
+    tree = TreeOnDemand(surface.points, surface.triangles);
   }
 
   bool decimate(double ratio, Host &on, CoarseSolid &coarse) {
@@ -51,7 +53,7 @@ class DecimateSolid : public testing::Test {
   bool decimate(double ratio, Host &on, SolidHistory &history, CoarseSolid &coarse) {
     options.tets = std::int64_t(ratio * double(original.tets.size()));
     const MeshView view = original.view();
-    coarse = decimate_solid_and_check({view, boundary, surface, topology}, options, lowered, history, on.job);
+    coarse = decimate_solid_and_check({view, boundary, surface, topology, tree}, options, lowered, history, on.job);
     failure = coarse.wrong;
     return failure.empty();
   }

@@ -67,13 +67,14 @@ class FirstAttempt : public Beginning {
     SolidOptions solid;
     solid.tets = sizes.tets;
     SolidHistory none(job_.memory);
-    const OriginalSolid original{original_.view, boundary_, prepared_.surface(job_), prepared_.topology(job_)};
+    const OriginalSolid original{original_.view, boundary_, prepared_.surface(job_), prepared_.topology(job_),
+                                 prepared_.tree(job_)};
     TetMesh mesh = decimate_solid_and_check(original, solid, sizes.lowered, none, job_).mesh;
     RefineOptions refining;
     refining.tets = budget_.tets;
     refining.before_lowering = tets_before_lowering(budget_, options_, report_, true, mesh.tets.size());
     refining.rounds = rounds_of(options_, report_);
-    refining.boundary = boundary_.triangles;
+    refining.boundary = &prepared_.tree(job_);
     refine(original_.view, refining, job_, mesh);
     result_.mesh = std::move(mesh);
   }

@@ -159,7 +159,7 @@ TEST_F(DecimateSolid, GoesNoFurtherThanMaxDeviation) {
   ASSERT_TRUE(decimate(0.2, host, held));
   expect_sound(held);
   EXPECT_LE(held.deviation, options.max_deviation);
-  EXPECT_EQ(held.deviation, largest_deviation(surface, held.surface, Samples::between_too, host.job));
+  EXPECT_EQ(held.deviation, largest_deviation(surface, tree, held.surface, Samples::between_too, host.job));
 }
 
 /// Along z nothing changes but linearly: an eighth of the vertices is enough.
@@ -222,7 +222,7 @@ TEST_F(DecimateSolid, CareBeginsAtNoStateThatIsTooCoarse) {
     options.tets = std::int64_t(ratio * double(original.tets.size()));
     Array<std::int32_t> origin(&host.memory);
     const MeshView view = original.view();
-    return decimate_solid({view, boundary, surface, topology}, options, history, host.job, mesh, origin);
+    return decimate_solid({view, boundary, surface, topology, tree}, options, history, host.job, mesh, origin);
   };
   SolidHistory with(host.memory), without(host.memory);
   TetMesh careless(host.memory), careful(host.memory), alone(host.memory);
