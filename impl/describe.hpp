@@ -85,9 +85,9 @@ inline void describe_refinement(const RefineReport &refined, const Original &ori
   report.steiner_points -= refined.removed_steiner;
   report.inserted_points = refined.inserted - refined.inserted_on_boundary;
   describe_insertions(refined.inserted_on_boundary, report);
-  report.max_error = original.range > 0 ? refined.max_error / original.range : 0;  // what is constant stays so
-  // No value leaves its field's range, whatever rounding makes of ranges far apart.
-  if (original.unequal_field > 0) report.max_error = std::min(report.max_error, 1.0);
+  // What is constant stays so; and no value leaves its field's range, whatever rounding makes of ranges that are no
+  // doubles, or far apart.
+  report.max_error = original.range > 0 ? std::min(refined.max_error / original.range, 1.0) : 0;
 }
 
 }  // namespace tetlod

@@ -81,6 +81,21 @@ TEST_F(Extremes, TheLargestValuesStayWithinTheirRange) {
   }
 }
 
+/// The range is no double, nor are differences of values; what part of it an error is, is one.
+TEST_F(Extremes, TheLargestErrorIsAPartOfTheRangeThatIsNoDouble) {
+  for (std::size_t v = 0; v < cube.values.size(); v++) cube.values[v] = v % 3 == 0 ? -1.7e308 : 1.7e308;
+  submit(context.get(), cube);
+  for (double ratio : {0.5, 0.1})
+    for (int effort : {TETLOD_EFFORT_FAST, TETLOD_EFFORT_ACCURATE}) {
+      set(TETLOD_OPT_TARGET_RATIO, ratio);
+      ASSERT_EQ(tetlod_set_int(context.get(), TETLOD_OPT_EFFORT, effort), TETLOD_OK);
+      ASSERT_EQ(tetlod_run(context.get()), TETLOD_OK) << message_of(context.get());
+      EXPECT_GT(report().max_error, 0);
+      EXPECT_LE(report().max_error, 1);
+      for (double value : reals(tetlod_view_scalars)) EXPECT_LE(std::abs(value), 1.7e308);
+    }
+}
+
 /// Squares of these values are no doubles any more.
 TEST_F(Extremes, KeptVerticesKeepTheSmallestValues) {
   cube = Cube(4);
