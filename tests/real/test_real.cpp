@@ -231,7 +231,7 @@ TEST(BluntFin, AtNinePercent) {
 }
 
 /// Table 1 has an error of 1.86 % there, which no pair of parameters reaches with samples 1 % of the diagonal away from
-/// the boundary: most of the field's variation lies nearer (README). What is held is twice that.
+/// the boundary: most of the field's variation lies nearer (PAPER.md). What is held is twice that.
 TEST(BluntFin, ErrorAtNinePercentIsWithinTwiceThePapers) {
   SKIP_WITHOUT("bluntfin");
   const Original &set = original("bluntfin");

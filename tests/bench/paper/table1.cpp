@@ -18,7 +18,7 @@ struct Stand {
 constexpr Stand kStands[] = {
     {"fighter", "bluntfin_x8", true}, {"f117", "comb", false}, {"bluntfin", "bluntfin", false}};
 
-// The least RMS of a sweep over rho and sigma at this size (README); for other sets the size alone is looked for.
+// The least RMS of a sweep over rho and sigma at this size (PAPER.md); for other sets the size alone is looked for.
 std::optional<Parameters> swept(const std::string &name, double kept) {
   if (name != "bluntfin" || std::abs(kept - 0.09) > 1e-9) return std::nullopt;
   Parameters parameters;
