@@ -51,7 +51,8 @@ class SolidDecimator {
     }
     if (!options.holds_bound) places_.relax(progress_.relaxed);
     if (options.hasty) progress_.far = SolidProgress::far_in_haste;
-    if (options.max_deviation > 0) limits_.limit_deviation(original.surface, original.tree.get(job), options.max_deviation, job);
+    if (options.max_deviation > 0)
+      limits_.limit_deviation(original.surface, original.tree.get(job), options.max_deviation, job);
   }
 
   void run() {

@@ -83,7 +83,8 @@ bool lower(const OriginalSolid &original, const SolidOptions &options, double le
   lowered.origin = coarse.origin;
   lowered.reused = coarse.reused;
   const Array<std::uint8_t> stay = vertices_that_stay(options, job.memory);
-  lowered.deviation = lower_deviation(original.surface, original.tree.get(job), stay, least, most, job, lowered.mesh, lowered.origin);
+  lowered.deviation =
+      lower_deviation(original.surface, original.tree.get(job), stay, least, most, job, lowered.mesh, lowered.origin);
   check(original, options, job, lowered);
   const bool is_sound = lowered.is_sound;
   if (is_sound) coarse = std::move(lowered);

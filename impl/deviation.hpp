@@ -22,7 +22,8 @@ double largest_deviation(const Surface &a, TreeOnDemand &tree_of_a, const Surfac
 /// simplified one within it of the original. Each triangle has a list of the original's samples that it stands for.
 class DeviationLimit {
  public:
-  /// original: its triangles are those that the decimation begins with, by number. nearest: its tree; must live as long.
+  /// original: its triangles are those that the decimation begins with, by number. nearest: its tree; must live as
+  /// long.
   DeviationLimit(const Surface &original, const TriangleTree &nearest, double limit, Job &job);
 
   /// Whether the collapse would take the surface too far.

@@ -20,7 +20,8 @@ class LowerDeviation : public DecimateSolid {
     origin.assign(mesh.points.size(), 0);
     for (std::size_t v = 0; v < origin.size(); v++)
       origin[v] = mesh.points[v] == original.points[v] || is_kept(v) ? std::int32_t(v) : -1;
-    return lower_deviation(surface, tree.get(host.job), {stays.data(), stays.size()}, least, most, host.job, mesh, origin);
+    return lower_deviation(surface, tree.get(host.job), {stays.data(), stays.size()}, least, most, host.job, mesh,
+                           origin);
   }
 
   bool is_kept(std::size_t v) const { return !stays.empty() && stays[v]; }
