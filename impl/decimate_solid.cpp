@@ -5,11 +5,12 @@
 #include <numeric>
 
 #include "begin_collapses.hpp"
+#include "beside.hpp"
 #include "boundary_limits.hpp"
 #include "solid_blocks.hpp"
 #include "solid_costs.hpp"
 #include "solid_places.hpp"
-#include "solid_state.hpp"
+#include "state_keeper.hpp"
 
 namespace tetlod {
 
@@ -21,6 +22,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double part_of_round = 0.33, part_of_removals = 0.5, part_in_haste = 0.7;
 /// Tets that a collapse takes away, about.
 constexpr double tets_a_collapse = 5.5;
+/// Of so many vertices one is left, or less: blocks are few then, and memory has become free.
+constexpr std::size_t few = 5;
 
 template <std::size_t m>
 class SolidDecimator {
@@ -29,6 +32,7 @@ class SolidDecimator {
   SolidDecimator(const OriginalSolid &original, const SolidOptions &options, const FieldsAsLengths<m> &fields,
                  CollapseStart<m> &&start, Array<SolidState<m>> *states, Job &job)
       : original_(original.mesh),
+        tree_(original.tree),
         fields_(fields),
         options_(options),
         job_(job),
@@ -36,7 +40,7 @@ class SolidDecimator {
         progress_(std::move(start.progress)),
         costs_(mesh_, progress_),
         places_(mesh_, options.holds_bound, original.surface.points.size()),
-        states_(states),
+        keeper_(states, options, job),
         count_(std::int64_t(mesh_.tets.size())),
         blocks_(mesh_.points.size(), job.memory),
         rooms_(&job.memory),
@@ -58,7 +62,10 @@ class SolidDecimator {
   void run() {
     const double surplus = double(count_ - options_.tets);
     const std::int64_t near_enough = options_.tets + options_.tets / 1000;  // the largest errors get a little less then
+    std::optional<Beside> tree;  // will be asked for, and collapses leave threads idle that are few
     for (double limit; count_ > near_enough && (limit = limit_of_round()) < infinity;) {
+      if (!tree && left_.size() * few < original_.points.size() && has_room_for_tree())
+        tree.emplace(job_, [this] { tree_.get(job_); });
       if (count_ < options_.enough && limit > options_.dearest) break;
       if (count_ <= options_.careful_from && !limits_.guards_crossings())
         limits_.guard_crossings(mesh_.points, mesh_.triangles, {}, job_);
@@ -71,6 +78,7 @@ class SolidDecimator {
       else
         mesh_.tidy({rooms_.data(), rooms_.size()}, job_);
     }
+    if (tree) tree->finish();
   }
 
   /// The end of it.
@@ -114,6 +122,8 @@ class SolidDecimator {
     std::size_t within_limit = 0, waited = 0;  ///< vertices, as far as is known
     double cost = 0;
   };
+
+  bool has_room_for_tree() const { return job_.memory.in_use() + tree_.bytes_to_make() <= job_.memory.peak(); }
 
   Values<m> values_of(std::int32_t v) const {
     Values<m> values;
@@ -240,13 +250,10 @@ class SolidDecimator {
   /// time.
   bool gaps_are_due() const {
     if (!limits_.empty() || count_ <= options_.tets) return false;
-    const std::int64_t near = std::min(2 * size(), most_for_new_values());
+    const std::int64_t near = std::min(2 * size(), most_for_new_values(mesh_.measures));
     const bool comes_near = progress_.follows() && count_ <= near && std::int64_t(mesh_.tets.size()) > near;
     return comes_near || count_ < progress_.next_closing;
   }
-
-  /// Tets that new values may begin with, for the memory's sake.
-  std::int64_t most_for_new_values() const { return std::int64_t(mesh_.measures.tets / 2); }
 
   /// What is left moves together, so that it is near in memory.
   void close_gaps() {
@@ -255,39 +262,10 @@ class SolidDecimator {
     SolidRemains<m> remains = mesh_.take_remains(number, job_);
     progress_.close_gaps(number, job_);
     for (CollapseRoom &room : rooms_) room.clear();
-    keep_state(remains);
+    keeper_.keep(remains, progress_, count_);
     mesh_ = SolidMesh<m>(std::move(remains), job_);
     std::iota(left_.begin(), left_.end(), 0);
     blocks_ = SolidBlocks(left_.size(), job_.memory);
-  }
-
-  /// Unless it is of this target alone, where only new values may begin, of sharp folds, kept already, or would take
-  /// memory that the run does not need without it. Where new values may begin must not depend on the peak, which
-  /// depends on the threads. While vertices are removed the way is that to all smaller targets, too: such states take
-  /// the place of others.
-  void keep_state(SolidRemains<m> &remains) {
-    const bool of_this_target = progress_.largest_target < options_.tets, follows = progress_.follows();
-    if (!states_ || (of_this_target && !follows) || progress_.relaxed > places_.most_for_slivers) return;
-    const auto last_is_no_finer = [&] {
-      return !states_->empty() && states_->back().remains.tets.size() <= remains.tets.size();
-    };
-    while (progress_.removes() && last_is_no_finer() && !states_->back().progress.removes()) states_->pop_back();
-    if (last_is_no_finer()) return;
-    if (follows ? count_ > most_for_new_values() : takes_too_much(remains)) return;
-    remains.give_spare_back();
-    job_.poll(0);  // each of both copies large arrays
-    kept_ += remains.bytes() + progress_.bytes();
-    states_->push_back({SolidRemains<m>(remains, job_.memory), SolidProgress(progress_, job_.memory)});
-    if (of_this_target) states_->back().progress.allow(-1);  // no size of the same values begins there
-  }
-
-  /// Than the peak so far, now or later; where other sizes are likely to follow, than a quarter more.
-  bool takes_too_much(const SolidRemains<m> &remains) {
-    const std::size_t peak = job_.memory.peak();
-    if (most_ == 0) most_ = options_.one_of_many ? peak / 4 * 5 : peak;
-    const std::size_t of_lists = SolidComplex::bytes_of_lists(remains.points.size(), remains.tets.size());
-    const std::size_t in_use = job_.memory.in_use() - remains.spare_bytes();
-    return std::max(in_use + of_lists, options_.later + kept_) + remains.bytes() + progress_.bytes() > most_;
   }
 
   // ---- A collapse
@@ -361,6 +339,7 @@ class SolidDecimator {
   }
 
   const MeshView &original_;
+  TreeOnDemand &tree_;
   const FieldsAsLengths<m> &fields_;
   const SolidOptions &options_;
   Job &job_;
@@ -368,9 +347,8 @@ class SolidDecimator {
   SolidProgress progress_;
   SolidCosts<m> costs_;
   SolidPlaces<m> places_;
-  Array<SolidState<m>> *states_;
-  std::size_t kept_ = 0, most_ = 0;  // bytes of those that came to them, and in all while they come; 0: to be found
-  std::int64_t count_;               // of the tets that are left
+  StateKeeper<m> keeper_;
+  std::int64_t count_;  // of the tets that are left
   SolidBlocks blocks_;
   Array<CollapseRoom> rooms_;  // of each block
   Array<Work> works_;

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <limits>
+#include <optional>
 
 #include "attempts.hpp"
 #include "beginning.hpp"
@@ -162,6 +163,15 @@ class Pipeline : private Beginning {
     return false;
   }
 
+  /// Of the original's boundary.
+  TreeOnDemand &tree() {
+    if (!tree_) {
+      const Surface &surface = prepared_.surface(job_);
+      tree_.emplace(surface.points, surface.triangles);
+    }
+    return *tree_;
+  }
+
   SolidOptions collapse_options() const {
     SolidOptions options;
     options.tets = collapse_sizes(budget_, options_, report_).tets;
@@ -179,8 +189,7 @@ class Pipeline : private Beginning {
 
   CoarseSolid collapse(const SolidOptions &options, SolidHistory &history) {
     const StageTimer timer(Stage::decimate, job_, report_);
-    const OriginalSolid original{original_.view, boundary_, prepared_.surface(job_), prepared_.topology(job_),
-                                 prepared_.tree(job_)};
+    const OriginalSolid original{original_.view, boundary_, prepared_.surface(job_), prepared_.topology(job_), tree()};
     const std::int64_t lowered = collapse_sizes(budget_, options_, report_).lowered;
     return decimate_solid_and_check(original, options, lowered, history, job_);
   }
@@ -222,8 +231,15 @@ class Pipeline : private Beginning {
     }
   }
 
+  /// A tree that is made anew takes less than memory that the run has not had.
+  void make_room_to_refine() {
+    const std::size_t wanted = bytes_to_refine(original_.view, budget_.tets, rounds_of(options_, report_));
+    if (job_.memory.in_use() + wanted > job_.memory.peak()) tree().drop();
+  }
+
   void refine(bool collapsed) {
     const StageTimer timer(Stage::values, job_, report_);
+    make_room_to_refine();
     const double bound = options_.max_error * original_.range;
     const bool is_original = collapsed && is_the_original(mesh_, origin_, report_);
     Array<std::uint8_t> kept = kept_.flags_of(origin_, job_.memory);
@@ -231,8 +247,8 @@ class Pipeline : private Beginning {
     const bool follows_field = !is_original && (!collapsed || options_.effort == effort_accurate);
     const std::int64_t before = tets_before_lowering(budget_, options_, report_, collapsed, mesh_.tets.size());
     const RefineOptions options{
-        budget_.tets, before, report_.steiner_points, follows_field,    rounds_of(options_, report_),
-        bound,        kept,   &prepared_.tree(job_),  deviation_limit()};
+        budget_.tets, before,  report_.steiner_points, follows_field, rounds_of(options_, report_), bound,
+        kept,         &tree(), deviation_limit()};
     RefineReport refined(job_.memory);
     // A bound is looked for all the same: the sides of a slit may be nearer than weights are rounded by.
     if (bound > 0 || !is_original) refined = tetlod::refine(original_.view, options, job_, mesh_);
@@ -312,7 +328,7 @@ class Pipeline : private Beginning {
   }
 
   void measure_deviation() {
-    const double deviation = prepared_.deviation(surface_, samples_for(options_.max_deviation), job_);
+    const double deviation = prepared_.deviation(tree(), surface_, samples_for(options_.max_deviation), job_);
     report_.max_deviation = deviation / original_.box.diagonal();
   }
 
@@ -338,7 +354,8 @@ class Pipeline : private Beginning {
   TetMesh &mesh_;
   double score_ = 0;  // of the last refinement
   Ladder ladder_ = Ladder::whole;
-  std::string failure_;                        // of the last remeshing, or, without one, of the first collapses
+  std::string failure_;  // of the last remeshing, or, without one, of the first collapses
+  std::optional<TreeOnDemand> tree_;
   Surface surface_{job_.memory};               // the simplified boundary
   SurfaceTopology topology_{job_.memory};      // of the simplified boundary
   Array<std::int32_t> samples_{&job_.memory};  // after culling

@@ -57,7 +57,6 @@ void Prepared::prepare_surface(Job &job) {
     find_topology(surface.points, surface.triangles, job, topology, host_numbers(surface, original.index_base));
     surface_ = std::move(surface);
     topology_ = std::move(topology);
-    tree_ = TreeOnDemand(surface_.points, surface_.triangles);
     has_surface_ = true;
   }
   const std::size_t fields = surface_.fields = original.view.fields;
@@ -75,11 +74,6 @@ const Surface &Prepared::surface(Job &job) {
 const SurfaceTopology &Prepared::topology(Job &job) {
   prepare_surface(job);
   return topology_;
-}
-
-TreeOnDemand &Prepared::tree(Job &job) {
-  prepare_surface(job);
-  return tree_;
 }
 
 Array<std::uint8_t> Prepared::flags_of_surface(Job &job) const {
@@ -134,8 +128,8 @@ Prepared::Decimated Prepared::decimate(const DecimateOptions &options, std::int3
   return {report.cleaned_edges, reused};
 }
 
-double Prepared::deviation(const Surface &decimated, Samples samples, Job &job) {
-  if (deviation_way_ != last_) deviation_ = largest_deviation(surface_, tree_, decimated, samples, job);
+double Prepared::deviation(TreeOnDemand &tree, const Surface &decimated, Samples samples, Job &job) {
+  if (deviation_way_ != last_) deviation_ = largest_deviation(surface_, tree, decimated, samples, job);
   deviation_way_ = last_;
   return deviation_;
 }

@@ -50,9 +50,6 @@ class Prepared {
   /// The boundary with its values, and how it hangs together.
   const Surface &surface(Job &job);
   const SurfaceTopology &topology(Job &job);
-  /// Over that boundary, for a run.
-  TreeOnDemand &tree(Job &job);
-
   struct Decimated {
     std::int64_t cleaned_edges = 0;
     bool reused = false;  ///< no cost was computed
@@ -61,8 +58,8 @@ class Prepared {
   /// index_base.
   Decimated decimate(const DecimateOptions &options, std::int32_t index_base, Job &job, Surface &out);
 
-  /// Between surface() and what decimate() made of it last, at these samples of both.
-  double deviation(const Surface &decimated, Samples samples, Job &job);
+  /// Between surface(), whose tree it is, and what decimate() made of it last, at these samples of both.
+  double deviation(TreeOnDemand &tree, const Surface &decimated, Samples samples, Job &job);
 
   /// Of the original while its edges collapsed, for a bound or not, with the values that it has now, or, if asked for,
   /// with earlier ones.
@@ -99,7 +96,6 @@ class Prepared {
   Fingerprint stamp_;
   Surface surface_;
   SurfaceTopology topology_;
-  TreeOnDemand tree_;
   Logged careless_, careful_;
   SolidHistory history_;
   Way last_;

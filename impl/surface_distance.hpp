@@ -45,11 +45,13 @@ class TreeOnDemand {
   TreeOnDemand(Span<const Vec3> points, Span<const Triangle> triangles) : points_(points), triangles_(triangles) {}
 
   const TriangleTree &get(Job &job) {
-    constexpr std::int64_t leaf = 4;
+    constexpr std::int64_t leaf = 8;
     if (!tree_) tree_.emplace(points_, triangles_, leaf, job);
     return *tree_;
   }
   void drop() { tree_.reset(); }
+  /// About.
+  std::size_t bytes_to_make() const { return tree_ ? 0 : 150 * triangles_.size(); }
 
  private:
   Span<const Vec3> points_;

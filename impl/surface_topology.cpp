@@ -4,6 +4,7 @@
 
 #include "predicates.hpp"
 #include "status.hpp"
+#include "whole_arrays.hpp"
 
 namespace tetlod {
 
@@ -21,7 +22,7 @@ class TopologyFinder {
     sort_half_edges();
     out_.mate.assign(3 * triangles_.size(), -1);
     out_.touching.assign(points_.size(), 0);
-    for_each_edge([&](std::size_t begin, std::size_t end) { pair_around_edge(begin, end); });
+    pair_half_edges();
     find_sheet_vertices();
     find_components();
   }
@@ -46,30 +47,46 @@ class TopologyFinder {
     Array<std::int32_t> place(begin_, &job_.memory);
     for (std::int32_t h = 0; h < count; h++)
       sorted_[std::size_t(place[std::size_t(low_end(h))]++)] = {std::max(from(h), to(h)), h};
-    for (std::size_t v = 0; v < points_.size(); v++) {
-      if (v % 16384 == 0) job_.poll(0);
+    for_each(points_.size(), job_, [&](std::size_t v) {
       std::sort(sorted_.begin() + begin_[v], sorted_.begin() + begin_[v + 1],
                 [](const HalfEdge &a, const HalfEdge &b) { return a.high != b.high ? a.high < b.high : a.id < b.id; });
+    });
+  }
+
+  /// Of the half-edges between two points, where they lie in sorted_.
+  struct Edge {
+    std::size_t begin, end;
+  };
+  /// Those of the edges of some points, in order: how many, and which are not simply two that run against each other.
+  struct Edges {
+    explicit Edges(Memory &memory) : others(&memory) {}
+    std::int64_t count = 0;
+    Array<Edge> others;
+  };
+
+  /// The few edges that are no simple ones come one after another, so that what is told of is the first.
+  void pair_half_edges() {
+    const Array<Edges> parts =
+        parts_of(points_.size(), Edges(job_.memory), job_, [&](Edges &edges, std::size_t v) { pair_at(v, edges); });
+    for (const Edges &edges : parts) {
+      out_.edges += edges.count;
+      for (const Edge &edge : edges.others) pair_around_edge(edge.begin, edge.end);
     }
   }
 
-  template <class Visit>
-  void for_each_edge(const Visit &visit) {
-    for (std::size_t v = 0; v < points_.size(); v++) {
-      if (v % 16384 == 0) job_.poll(0);
-      std::size_t i = std::size_t(begin_[v]);
-      const std::size_t last = std::size_t(begin_[v + 1]);
-      while (i < last) {
-        std::size_t j = i + 1;
-        while (j < last && sorted_[j].high == sorted_[i].high) j++;
-        visit(i, j);
-        i = j;
-      }
+  void pair_at(std::size_t v, Edges &edges) {
+    const auto last = std::size_t(begin_[v + 1]);
+    for (std::size_t i = std::size_t(begin_[v]), j = i; i < last; i = j) {
+      while (j < last && sorted_[j].high == sorted_[i].high) j++;
+      edges.count++;
+      if (j - i == 2 && from(sorted_[i].id) != from(sorted_[i + 1].id))
+        pair(sorted_[i].id, sorted_[i + 1].id);
+      else
+        edges.others.push_back({i, j});
     }
   }
 
   void pair_around_edge(std::size_t begin, std::size_t end) {
-    out_.edges++;
     if (end - begin == 2) {
       pair(sorted_[begin].id, sorted_[begin + 1].id);
       return;

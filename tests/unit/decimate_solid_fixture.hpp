@@ -53,6 +53,7 @@ class DecimateSolid : public testing::Test {
   bool decimate(double ratio, Host &on, SolidHistory &history, CoarseSolid &coarse) {
     options.tets = std::int64_t(ratio * double(original.tets.size()));
     const MeshView view = original.view();
+    TreeOnDemand tree(surface.points, surface.triangles);  // of memory that lives as long as `on`
     coarse = decimate_solid_and_check({view, boundary, surface, topology, tree}, options, lowered, history, on.job);
     failure = coarse.wrong;
     return failure.empty();

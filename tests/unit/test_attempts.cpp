@@ -67,14 +67,15 @@ class FirstAttempt : public Beginning {
     SolidOptions solid;
     solid.tets = sizes.tets;
     SolidHistory none(job_.memory);
-    const OriginalSolid original{original_.view, boundary_, prepared_.surface(job_), prepared_.topology(job_),
-                                 prepared_.tree(job_)};
+    const Surface &surface = prepared_.surface(job_);
+    TreeOnDemand tree(surface.points, surface.triangles);
+    const OriginalSolid original{original_.view, boundary_, surface, prepared_.topology(job_), tree};
     TetMesh mesh = decimate_solid_and_check(original, solid, sizes.lowered, none, job_).mesh;
     RefineOptions refining;
     refining.tets = budget_.tets;
     refining.before_lowering = tets_before_lowering(budget_, options_, report_, true, mesh.tets.size());
     refining.rounds = rounds_of(options_, report_);
-    refining.boundary = &prepared_.tree(job_);
+    refining.boundary = &tree;
     refine(original_.view, refining, job_, mesh);
     result_.mesh = std::move(mesh);
   }
