@@ -22,12 +22,14 @@ class BoundaryLimits {
   bool guards_crossings() const { return guard_.has_value(); }
 
   bool empty() const { return !deviation_ && !guard_; }
-  bool are_passed(const Star &star) {
-    return (deviation_ && deviation_->is_passed(star)) || (guard_ && guard_->is_passed(star));
+  /// of_star: for move_on. Of stars that have no triangle in common at the same time, as long as no crossings are
+  /// guarded.
+  bool are_passed(const Star &star, SamplesOfStar &of_star) {
+    return (deviation_ && deviation_->is_passed(star, of_star)) || (guard_ && guard_->is_passed(star));
   }
-  /// The collapse that was looked at last is made.
-  void move_on(const Star &star) {
-    if (deviation_) deviation_->move_on(star);
+  /// The collapse is made.
+  void move_on(const Star &star, const SamplesOfStar &of_star) {
+    if (deviation_) deviation_->move_on(star, of_star);
     if (guard_) guard_->move_on(star);
   }
 

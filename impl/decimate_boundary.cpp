@@ -276,7 +276,7 @@ class Decimator {
     if (!std::isfinite(placement.cost)) return;
     if (leaves_pillow(h) || joins_sheets(h) || !look_around(h, placement.point)) return;
     if (pinches_ring(star_) || turns_too_far(star_) || folds(star_) || makes_sliver(star_)) return;
-    if (limits_.are_passed(star_)) return;
+    if (limits_.are_passed(star_, samples_)) return;
     collapse(h, placement);
   }
 
@@ -298,7 +298,7 @@ class Decimator {
         queue_.remove(mesh_.edge_handle(gone).idx());
     }
     collapse_edge(h, mesh_);
-    limits_.move_on(star_);
+    limits_.move_on(star_, samples_);
     edges_ -= 3;
     update_around(to);
   }
@@ -348,6 +348,7 @@ class Decimator {
   Array<TrianglePlane> plane_{&job_.memory};
   TreeOnDemand tree_{surface_.points, surface_.triangles};
   BoundaryLimits limits_;
+  SamplesOfStar samples_{job_.memory};
   FieldQuadrics<m> quadrics_{job_.memory};  // empty: the paper's cost
   Array<VolumeSums> volume_{&job_.memory};
   Array<LinkSums> link_{&job_.memory};

@@ -22,8 +22,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double part_of_round = 0.33, part_of_removals = 0.5, part_in_haste = 0.7;
 /// Tets that a collapse takes away, about.
 constexpr double tets_a_collapse = 5.5;
-/// Of so many vertices one is left, or less: blocks are few then, and memory has become free.
-constexpr std::size_t few = 5;
+/// Of so many vertices one is left, or less: there are few blocks then, and memory has become free.
+constexpr std::size_t to_one_left = 5;
 
 template <std::size_t m>
 class SolidDecimator {
@@ -64,7 +64,7 @@ class SolidDecimator {
     const std::int64_t near_enough = options_.tets + options_.tets / 1000;  // the largest errors get a little less then
     std::optional<Beside> tree;  // will be asked for, and collapses leave threads idle that are few
     for (double limit; count_ > near_enough && (limit = limit_of_round()) < infinity;) {
-      if (!tree && left_.size() * few < original_.points.size() && has_room_for_tree())
+      if (!tree && left_.size() * to_one_left < original_.points.size() && has_room_for_tree())
         tree.emplace(job_, [this] { tree_.get(job_); });
       if (count_ < options_.enough && limit > options_.dearest) break;
       if (count_ <= options_.careful_from && !limits_.guards_crossings())
@@ -114,10 +114,11 @@ class SolidDecimator {
 
   /// What a block does in a round.
   struct Work {
-    explicit Work(Memory &memory) : items(&memory), collapse(memory), edges(memory) {}
+    explicit Work(Memory &memory) : items(&memory), collapse(memory), edges(memory), samples(memory) {}
     Array<std::int32_t> items;
     SolidCollapse<m> collapse;
     EdgeCosts edges;
+    SamplesOfStar samples;
     std::int64_t most = 0, gone = 0;           ///< tets
     std::size_t within_limit = 0, waited = 0;  ///< vertices, as far as is known
     double cost = 0;
@@ -212,10 +213,10 @@ class SolidDecimator {
     return order;
   }
 
-  /// Few are soon done; what limits the boundary is one for all; and where most wait, one block gets on.
+  /// Few are soon done; what guards the boundary against crossings is one for all; where most wait, one block gets on.
   std::size_t most_blocks(std::size_t items) const {
     constexpr std::size_t few = 512;
-    return items < few || !limits_.empty() || progress_.most_waited ? 1 : SolidBlocks::most;
+    return items < few || limits_.guards_crossings() || progress_.most_waited ? 1 : SolidBlocks::most;
   }
 
   void collapse_in_block(double limit, Work &work, CollapseRoom &room) {
@@ -320,11 +321,11 @@ class SolidDecimator {
   void make(const SolidCollapse<m> &collapse, Work &work, CollapseRoom &room) {
     const std::int32_t v = collapse.edge.stays;
     if (collapse.of_boundary) {
-      if (limits_.are_passed(collapse.star)) {
+      if (limits_.are_passed(collapse.star, work.samples)) {
         costs_.find_cheapest(collapse.found_at, work.edges, cheapest(collapse.found_at).cost);
         return;
       }
-      limits_.move_on(collapse.star);
+      limits_.move_on(collapse.star, work.samples);
     }
     mesh_.collapse(collapse.edge, collapse.place, room);
     if (progress_.follows()) progress_.into[std::size_t(collapse.edge.gone)] = v;

@@ -54,6 +54,8 @@ TriangleInSpace spoke_of(const Star &star, std::size_t i) {
   return {star.centre, star.ring[i], star.ring[star.after(i)]};
 }
 
+Vec3 middle_of_edge(const Star &star, std::size_t i) { return 0.5 * (star.centre + star.ring[i]); }
+
 /// A new triangle near enough to p, `first` before others; the star's size if there is none.
 std::size_t near_spoke(const Star &star, std::size_t first, const Vec3 &p, double limit2) {
   for (std::size_t i = 0; i < star.size(); i++) {
@@ -70,39 +72,65 @@ double largest_deviation(const Surface &a, TreeOnDemand &tree_of_a, const Surfac
   return farthest(b, tree_of_a.get(job), samples, from_a, job);
 }
 
+void SamplesOfStar::begin(const Star &star) {
+  homes_.clear();
+  centre_ = {};
+  edges_.assign(star.size(), {});
+  middles_.assign(star.size(), {});
+}
+
+void SamplesOfStar::add(const Star &star, std::int32_t sample, const Vec3 &p, std::size_t spoke) {
+  homes_.push_back({sample, star.spoke_face(spoke)});
+  centre_.look_at(sample, length2(star.centre - p));
+  for (std::size_t i : {spoke, star.after(spoke)}) edges_[i].look_at(sample, length2(middle_of_edge(star, i) - p));
+  middles_[spoke].look_at(sample, length2(spoke_of(star, spoke).middle() - p));
+}
+
 DeviationLimit::DeviationLimit(const Surface &original, const TriangleTree &nearest, double limit, Job &job)
-    : limit_(limit),
+    : original_(original),
+      limit2_(limit * limit),
       nearest_(nearest),
       samples_(&job.memory),
+      triangle_(&job.memory),
       first_(original.triangles.size(), -1, &job.memory),
-      next_(&job.memory),
-      homes_(&job.memory) {
+      next_(&job.memory) {
   for_samples(original, Samples::between_too, job.memory, [&](const Vec3 &p, std::size_t t) {
     next_.push_back(std::exchange(first_[t], std::int32_t(samples_.size())));
     samples_.push_back(p);
+    triangle_.push_back(std::int32_t(t));
   });
 }
 
-bool DeviationLimit::is_passed(const Star &star) {
-  if (is_far(star.centre)) return true;
-  homes_.clear();
+bool DeviationLimit::is_passed(const Star &star, SamplesOfStar &of_star) const {
+  of_star.begin(star);
   for (std::size_t i = 0; i < star.old_faces.size(); i++)
     for (std::int32_t s = first_[std::size_t(star.old_faces[i])]; s >= 0; s = next_[std::size_t(s)]) {
-      const std::size_t spoke = near_spoke(star, i < 2 ? 0 : i - 2, samples_[std::size_t(s)], limit_ * limit_);
+      const Vec3 &p = samples_[std::size_t(s)];
+      const std::size_t spoke = near_spoke(star, i < 2 ? 0 : i - 2, p, limit2_);
       if (spoke == star.size()) return true;
-      homes_.push_back({s, star.spoke_face(spoke)});
+      of_star.add(star, s, p, spoke);
     }
+  if (is_far(star.centre, of_star.at_centre())) return true;
   for (std::size_t i = 0; i < star.size(); i++) {
-    if (is_far(0.5 * (star.centre + star.ring[i])) || is_far(spoke_of(star, i).middle())) return true;
+    if (is_far(middle_of_edge(star, i), of_star.at_edge(i)) ||
+        is_far(spoke_of(star, i).middle(), of_star.at_middle(i)))
+      return true;
   }
   return false;
 }
 
-bool DeviationLimit::is_far(const Vec3 &p) const { return !nearest_.is_within(p, limit_ * limit_); }
+/// Mostly the original's triangle with the nearest sample is near enough.
+bool DeviationLimit::is_far(const Vec3 &p, const NearestSample &near) const {
+  if (near.sample >= 0) {
+    const Triangle &t = original_.triangles[std::size_t(triangle_[std::size_t(near.sample)])];
+    if (TriangleInSpace(original_.points, t).distance2_to(p) <= limit2_) return false;
+  }
+  return !nearest_.is_within(p, limit2_);
+}
 
-void DeviationLimit::move_on(const Star &star) {
+void DeviationLimit::move_on(const Star &star, const SamplesOfStar &of_star) {
   for (std::int32_t t : star.old_faces) first_[std::size_t(t)] = -1;
-  for (const auto &[s, t] : homes_) next_[std::size_t(s)] = std::exchange(first_[std::size_t(t)], s);
+  for (const auto &[s, t] : of_star.homes()) next_[std::size_t(s)] = std::exchange(first_[std::size_t(t)], s);
 }
 
 }  // namespace tetlod

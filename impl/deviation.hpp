@@ -18,6 +18,38 @@ inline Samples samples_for(double limit) { return limit > 0 ? Samples::between_t
 /// The largest distance from a sample of either surface to the other surface.
 double largest_deviation(const Surface &a, TreeOnDemand &tree_of_a, const Surface &b, Samples samples, Job &job);
 
+/// Of some samples, the one nearest to a point of a star, so far.
+struct NearestSample {
+  std::int32_t sample = -1;
+  double distance2 = std::numeric_limits<double>::infinity();
+  void look_at(std::int32_t other, double distance2_of_other) {
+    if (distance2_of_other < distance2) *this = {other, distance2_of_other};
+  }
+};
+
+/// What the spokes of a star would stand for, each for the samples that are near it.
+class SamplesOfStar {
+ public:
+  explicit SamplesOfStar(Memory &memory) : homes_(&memory), edges_(&memory), middles_(&memory) {}
+
+  void begin(const Star &star);
+  void add(const Star &star, std::int32_t sample, const Vec3 &p, std::size_t spoke);
+
+  struct Home {
+    std::int32_t sample, triangle;
+  };
+  Span<const Home> homes() const { return homes_; }
+  /// Those nearest to the centre, to the middle of the edge from it to ring vertex i, and to that of spoke i.
+  const NearestSample &at_centre() const { return centre_; }
+  const NearestSample &at_edge(std::size_t i) const { return edges_[i]; }
+  const NearestSample &at_middle(std::size_t i) const { return middles_[i]; }
+
+ private:
+  Array<Home> homes_;
+  NearestSample centre_;
+  Array<NearestSample> edges_, middles_;
+};
+
 /// Keeps all samples of the original surface within a distance of the triangles that stand for them, and those of the
 /// simplified one within it of the original. Each triangle has a list of the original's samples that it stands for.
 class DeviationLimit {
@@ -26,19 +58,21 @@ class DeviationLimit {
   /// long.
   DeviationLimit(const Surface &original, const TriangleTree &nearest, double limit, Job &job);
 
-  /// Whether the collapse would take the surface too far.
-  bool is_passed(const Star &star);
-  /// The collapse was made: the star's spokes stand for what its old triangles stood for.
-  void move_on(const Star &star);
+  /// Whether the collapse would take the surface too far. If not, `of_star` is for move_on.
+  bool is_passed(const Star &star, SamplesOfStar &of_star) const;
+  /// The collapse was made: the star's spokes stand for what its old triangles stood for. Collapses whose stars have no
+  /// triangle in common may be looked at and made at the same time.
+  void move_on(const Star &star, const SamplesOfStar &of_star);
 
  private:
-  bool is_far(const Vec3 &p) const;
+  bool is_far(const Vec3 &p, const NearestSample &near) const;
 
-  double limit_;
+  const Surface &original_;
+  double limit2_;
   const TriangleTree &nearest_;
-  Array<Vec3> samples_;                                 // of the original
-  Array<std::int32_t> first_, next_;                    // lists of them, by triangle
-  Array<std::pair<std::int32_t, std::int32_t>> homes_;  // of the collapse looked at last: sample, triangle
+  Array<Vec3> samples_;               // of the original
+  Array<std::int32_t> triangle_;      // of each, one that has it
+  Array<std::int32_t> first_, next_;  // lists of them, by triangle
 };
 
 }  // namespace tetlod
