@@ -112,8 +112,7 @@ bool DeviationLimit::is_passed(const Star &star, SamplesOfStar &of_star) const {
     }
   if (is_far(star.centre, of_star.at_centre())) return true;
   for (std::size_t i = 0; i < star.size(); i++) {
-    if (is_far(middle_of_edge(star, i), of_star.at_edge(i)) ||
-        is_far(spoke_of(star, i).middle(), of_star.at_middle(i)))
+    if (is_far(middle_of_edge(star, i), of_star.at_edge(i)) || is_far(spoke_of(star, i).middle(), of_star.at_middle(i)))
       return true;
   }
   return false;
