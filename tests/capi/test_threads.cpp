@@ -1,4 +1,6 @@
 // Contexts side by side, threads inside one, and one context in the hands of two threads.
+#include <pthread.h>
+
 #include <condition_variable>
 #include <mutex>
 #include <thread>
@@ -129,6 +131,35 @@ TEST(Threads, MessagesWithoutAContextAreTheThreads) {
   std::thread([] { EXPECT_EQ(message_of(nullptr), ""); }).join();
   EXPECT_EQ(message_of(nullptr), own);
 }
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // whose stacks are larger
+
+/// All that a run does, on a thread of its own.
+void *simplify_in_every_way(void *) {
+  const Cube cube(8);
+  const Context context = make_context();
+  submit(context.get(), cube);
+  for (int preset : {TETLOD_PRESET_PAPER, TETLOD_PRESET_FAST, TETLOD_PRESET_ACCURATE})
+    for (double bound : {0.0, 0.02}) {
+      tetlod_set_preset(context.get(), preset);
+      tetlod_set_real(context.get(), TETLOD_OPT_MAX_ERROR, bound);
+      EXPECT_EQ(tetlod_run(context.get()), TETLOD_OK) << message_of(context.get());
+    }
+  return nullptr;
+}
+
+/// As much as the smallest that C libraries give their threads.
+TEST(Threads, OneOfLittleStackIsEnough) {
+  pthread_attr_t attributes;
+  pthread_t thread;
+  ASSERT_EQ(pthread_attr_init(&attributes), 0);
+  ASSERT_EQ(pthread_attr_setstacksize(&attributes, 128 << 10), 0);
+  ASSERT_EQ(pthread_create(&thread, &attributes, simplify_in_every_way, nullptr), 0);
+  EXPECT_EQ(pthread_join(thread, nullptr), 0);
+  pthread_attr_destroy(&attributes);
+}
+
+#endif
 
 }  // namespace
 }  // namespace tetlod_test
