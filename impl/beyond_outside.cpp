@@ -41,7 +41,7 @@ class OutsideVertices {
     Array<Triangle> faces(&job_.memory);
     Array<std::int32_t> tet_of_face(&job_.memory);
     mesh_.find_boundary(faces, tet_of_face);
-    const TriangleTree boundary(mesh_.points, faces, 8, job_);
+    const TriangleTree boundary(mesh_.points, faces, job_);
     Array<std::uint8_t> beyond(probes_.size(), 0, &job_.memory);
     for_each(probes_.size(), job_, [&](std::size_t k) {
       const NearestPoint at = boundary.nearest(place(k));
@@ -58,16 +58,17 @@ class OutsideVertices {
     Array<Box> places(&job_.memory);
     for (std::size_t k = 0; k < probes_.size(); k++) places.push_back({place(k), place(k)});
     tree.build(std::move(places), 8, job_);
-    const Array<std::int32_t> none(&job_.memory);
-    return parts_of(mesh_.tets.size(), none, job_, [&](Array<std::int32_t> &beyond, std::size_t t) {
+    Array<Array<std::int32_t>> parts(mesh_.tets.size() / stretch + 1, &job_.memory);
+    for_each(mesh_.tets.size(), job_, [&](std::size_t t) {
       if (!mesh_.alive(std::int32_t(t))) return;
       const Tet &tet = mesh_.tets[t];
       tree.any_overlap(with_rounding(box_of<4>(mesh_.points, tet)), [&](std::int32_t k) {
         double w[4];
-        if (holds(tet, place(std::size_t(k)), w) && is_beyond(std::size_t(k), tet, w)) beyond.push_back(k);
+        if (holds(tet, place(std::size_t(k)), w) && is_beyond(std::size_t(k), tet, w)) parts[t / stretch].push_back(k);
         return false;
       });
     });
+    return parts;
   }
 
   bool holds(const Tet &t, const Vec3 &p, double w[4]) const {

@@ -36,8 +36,7 @@ BoundaryDistances::BoundaryDistances(const Surface &original, const TriangleTree
 }
 
 void BoundaryDistances::measure_samples() {
-  TreeOnDemand tree(mesh_.points, mesh_.boundary);
-  const TriangleTree &to_mesh = tree.get(job_);
+  const TriangleTree to_mesh(mesh_.points, mesh_.boundary, job_);
   job_.parallel.for_blocks(of_sample_.size(), block, [&](std::size_t begin, std::size_t end) {
     double usual2 = 0;
     for (std::size_t i = begin; i < end; i++) {
@@ -100,8 +99,7 @@ Array<Apart> BoundaryDistances::worst(double least, std::size_t most) const {
 /// Original vertices that stayed where they were may be nearer to what has changed: the largest are looked at again.
 double BoundaryDistances::largest() const {
   const auto is_less = [](const Apart &a, const Apart &b) { return b < a; };
-  TreeOnDemand tree(mesh_.points, mesh_.boundary);
-  const TriangleTree &to_mesh = tree.get(job_);
+  const TriangleTree to_mesh(mesh_.points, mesh_.boundary, job_);
   Array<Apart> largest(&job_.memory);
   for (std::size_t i = 0; i < of_sample_.size(); i++) largest.push_back({of_sample_[i], i, Apart::at_sample});
   std::make_heap(largest.begin(), largest.end(), is_less);

@@ -44,7 +44,9 @@ class Decimator {
     copy_connectivity(topology, job, mesh_);
     copy_triangles(topology);
     for (std::size_t v = 0; v < point_.size(); v++) update_sums(VertexHandle(int(v)));
-    if (options.max_deviation > 0) limits_.limit_deviation(surface, tree_.get(job), options.max_deviation, job);
+    if (options.max_deviation > 0)
+      limits_.limit_deviation(surface, tree_.emplace(surface.points, surface.triangles, job), options.max_deviation,
+                              job);
     if (options.sees_fields()) quadrics_.find(options.field_weight, triangle_, point_, values_);
     if (options.careful) limits_.guard_crossings(point_, triangle_, id_, job);
   }
@@ -346,7 +348,7 @@ class Decimator {
   Array<std::uint8_t> locked_{&job_.memory}, touching_{&job_.memory};
   Array<Triangle> triangle_{&job_.memory};
   Array<TrianglePlane> plane_{&job_.memory};
-  TreeOnDemand tree_{surface_.points, surface_.triangles};
+  std::optional<TriangleTree> tree_;  // of the surface, for a limit
   BoundaryLimits limits_;
   SamplesOfStar samples_{job_.memory};
   FieldQuadrics<m> quadrics_{job_.memory};  // empty: the paper's cost

@@ -11,6 +11,7 @@
 #include "solid_costs.hpp"
 #include "solid_places.hpp"
 #include "state_keeper.hpp"
+#include "surface_distance.hpp"
 
 namespace tetlod {
 
@@ -22,7 +23,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double part_of_round = 0.33, part_of_removals = 0.5, part_in_haste = 0.7;
 /// Tets that a collapse takes away, about.
 constexpr double tets_a_collapse = 5.5;
-/// Of so many vertices one is left, or less: there are few blocks then, and memory has become free.
+/// Of so many vertices one is left, or less: memory has become free then, and threads are idle soon.
 constexpr std::size_t to_one_left = 5;
 
 template <std::size_t m>
@@ -62,10 +63,12 @@ class SolidDecimator {
   void run() {
     const double surplus = double(count_ - options_.tets);
     const std::int64_t near_enough = options_.tets + options_.tets / 1000;  // the largest errors get a little less then
-    std::optional<Beside> tree;  // will be asked for, and collapses leave threads idle that are few
+    std::optional<Beside> tree;
     for (double limit; count_ > near_enough && (limit = limit_of_round()) < infinity;) {
-      if (!tree && left_.size() * to_one_left < original_.points.size() && has_room_for_tree())
-        tree.emplace(job_, [this] { tree_.get(job_); });
+      if (!tree && tree_is_due()) {
+        keeper_.leave(tree_.bytes_to_make());
+        tree.emplace(job_, [this] { make_tree(); });
+      }
       if (count_ < options_.enough && limit > options_.dearest) break;
       if (count_ <= options_.careful_from && !limits_.guards_crossings())
         limits_.guard_crossings(mesh_.points, mesh_.triangles, {}, job_);
@@ -124,7 +127,19 @@ class SolidDecimator {
     double cost = 0;
   };
 
-  bool has_room_for_tree() const { return job_.memory.in_use() + tree_.bytes_to_make() <= job_.memory.peak(); }
+  /// It will be asked for, and the last collapses leave threads idle.
+  bool tree_is_due() const {
+    const std::size_t bytes = tree_.bytes_to_make();
+    return job_.parallel.threads() > 1 && left_.size() * to_one_left < original_.points.size() && bytes > 0 &&
+           job_.memory.in_use() + bytes <= job_.memory.peak();
+  }
+
+  void make_tree() {
+    try {
+      tree_.get(job_);
+    } catch (...) {  // it is made, or fails, where it is asked for
+    }
+  }
 
   Values<m> values_of(std::int32_t v) const {
     Values<m> values;

@@ -7,10 +7,11 @@
 #include "job.hpp"
 #include "mesh.hpp"
 #include "solid_state.hpp"
-#include "surface_distance.hpp"
 #include "surface_topology.hpp"
 
 namespace tetlod {
+
+class TreeOnDemand;
 
 /// What is decimated.
 struct OriginalSolid {
@@ -45,7 +46,8 @@ struct SolidOptions {
 /// origin: the original vertex that each point still is, or -1. Tets that were flat may be left, and the boundary may
 /// cross itself: to be looked at. history: of this mesh, with these values and flags; it shortens the way to the same
 /// bytes, and gets more states, but with max_deviation; of earlier values, with a warm start, it shortens the way to
-/// others; restored vertices it forgets all for. Returns how many collapses it saved.
+/// others; restored vertices it forgets all for. original.tree is dropped, and may be made anew. Returns how many
+/// collapses it saved.
 std::int64_t decimate_solid(const OriginalSolid &original, const SolidOptions &options, SolidHistory &history, Job &job,
                             TetMesh &mesh, Array<std::int32_t> &origin);
 

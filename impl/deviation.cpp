@@ -68,7 +68,7 @@ std::size_t near_spoke(const Star &star, std::size_t first, const Vec3 &p, doubl
 }  // namespace
 
 double largest_deviation(const Surface &a, TreeOnDemand &tree_of_a, const Surface &b, Samples samples, Job &job) {
-  const double from_a = farthest(a, TreeOnDemand(b.points, b.triangles).get(job), samples, 0, job);
+  const double from_a = farthest(a, TriangleTree(b.points, b.triangles, job), samples, 0, job);
   return farthest(b, tree_of_a.get(job), samples, from_a, job);
 }
 

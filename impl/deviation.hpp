@@ -54,7 +54,7 @@ class SamplesOfStar {
 /// simplified one within it of the original. Each triangle has a list of the original's samples that it stands for.
 class DeviationLimit {
  public:
-  /// original: its triangles are those that the decimation begins with, by number. nearest: its tree; must live as
+  /// original: its triangles are those that the decimation begins with, by number. nearest: its tree. Both must live as
   /// long.
   DeviationLimit(const Surface &original, const TriangleTree &nearest, double limit, Job &job);
 

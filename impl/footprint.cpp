@@ -136,7 +136,7 @@ std::size_t count_linear_parts(const MeshView &mesh, Span<std::int32_t> vertices
 double share_away(Span<const Vec3> points, Span<const Triangle> boundary, Span<const std::int32_t> samples,
                   double least, Job &job) {
   constexpr std::size_t enough = 1000;
-  const TriangleTree nearest(points, boundary, 8, job);
+  const TriangleTree nearest(points, boundary, job);
   const std::size_t step = samples.size() / enough + 1;
   std::size_t asked = 0, away = 0;
   for (std::size_t i = 0; i < samples.size(); i += step) {

@@ -148,7 +148,7 @@ void locate(const MeshView &mesh, Span<const Triangle> boundary, Span<const Vec3
     job.poll(0.5 + 0.4 * double(end) / double(points.size()));
   });
   if (std::all_of(places.begin(), places.end(), [](const Place &place) { return place.tet >= 0; })) return;
-  const TriangleTree nearest(mesh.points, boundary, 8, job);
+  const TriangleTree nearest(mesh.points, boundary, job);
   job.parallel.for_blocks(points.size(), points_in_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; i++)
       if (places[i].tet < 0) find_on_boundary(nearest, points[i], places[i]);

@@ -18,7 +18,7 @@ class Nesting {
       : surface_(surface),
         job_(job),
         widest_(std::size_t(topology.components), -1, &job.memory),
-        tree_(surface.points, surface.triangles, 8, job) {
+        tree_(surface.points, surface.triangles, job) {
     find_widest(topology);
   }
 

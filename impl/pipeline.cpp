@@ -18,6 +18,7 @@
 #include "reconstruct_field.hpp"
 #include "refine.hpp"
 #include "status.hpp"
+#include "surface_distance.hpp"
 #include "surface_topology.hpp"
 
 namespace tetlod {
@@ -231,10 +232,11 @@ class Pipeline : private Beginning {
     }
   }
 
-  /// A tree that is made anew takes less than memory that the run has not had.
+  /// A tree that is made anew, which a limit to the deviation asks for at once, takes less than memory that the run has
+  /// not had.
   void make_room_to_refine() {
     const std::size_t wanted = bytes_to_refine(original_.view, budget_.tets, rounds_of(options_, report_));
-    if (job_.memory.in_use() + wanted > job_.memory.peak()) tree().drop();
+    if (options_.max_deviation == 0 && job_.memory.in_use() + wanted > job_.memory.peak()) tree_.reset();
   }
 
   void refine(bool collapsed) {
@@ -282,6 +284,7 @@ class Pipeline : private Beginning {
 
   void decimate(double sigma) {
     const StageTimer timer(Stage::decimate, job_, report_);
+    tree_.reset();  // the memory is wanted
     describe_boundary(prepared_.topology(job_), report_);
     const Surface &surface = prepared_.surface(job_);
     const double range = original_.range, diagonal = box_of(surface.points).diagonal();
@@ -347,6 +350,7 @@ class Pipeline : private Beginning {
 
   void carry() {
     const StageTimer timer(Stage::values, job_, report_);
+    tree_.reset();  // the memory is wanted
     carry_fields(input_, options_, original_, boundary_, job_, result_);
     split_fields(input_, job_, result_);
   }

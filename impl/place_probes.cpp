@@ -255,7 +255,7 @@ void project(Job &job, Array<std::int32_t> &home, AdaptiveMesh<m> &mesh) {
   Array<Triangle> faces(&job.memory);
   Array<std::int32_t> tet_of_face(&job.memory);
   mesh.find_boundary(faces, tet_of_face);
-  const TriangleTree boundary(mesh.points, faces, 8, job);
+  const TriangleTree boundary(mesh.points, faces, job);
   mesh.outside.assign(mesh.vertex_probes, 0);
   job.parallel.for_blocks(mesh.vertex_probes, block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; i++) {

@@ -50,6 +50,7 @@ class Prepared {
   /// The boundary with its values, and how it hangs together.
   const Surface &surface(Job &job);
   const SurfaceTopology &topology(Job &job);
+
   struct Decimated {
     std::int64_t cleaned_edges = 0;
     bool reused = false;  ///< no cost was computed

@@ -13,6 +13,7 @@
 #include "place_probes.hpp"
 #include "remove_vertices.hpp"
 #include "sort_by_place.hpp"
+#include "surface_distance.hpp"
 
 namespace tetlod {
 

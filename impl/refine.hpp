@@ -2,9 +2,10 @@
 #pragma once
 #include "job.hpp"
 #include "mesh.hpp"
-#include "surface_distance.hpp"
 
 namespace tetlod {
+
+class TreeOnDemand;
 
 struct RefineOptions {
   std::int64_t tets = 0;             ///< how many there shall be

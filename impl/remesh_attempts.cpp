@@ -117,7 +117,7 @@ bool crowds(const Vec3 &p, const Surface &surface, const TriangleTree &triangles
 
 RemeshInput without_crowding_samples(const RemeshProblem &problem, double fraction) {
   RemeshInput input = boundary_input(problem, uniform_frame(problem.box));
-  const TriangleTree triangles(problem.surface.points, problem.surface.triangles, 8, problem.job);
+  const TriangleTree triangles(problem.surface.points, problem.surface.triangles, problem.job);
   for (std::size_t i = 0; i < problem.samples.size(); i++) {
     if (i % 256 == 0) problem.job.poll(fraction);
     if (!crowds(problem.samples[i], problem.surface, triangles))

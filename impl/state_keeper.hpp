@@ -16,6 +16,9 @@ class StateKeeper {
   StateKeeper(Array<SolidState<m>> *states, const SolidOptions &options, Job &job)
       : states_(states), options_(options), job_(job) {}
 
+  /// So many bytes, which others will use.
+  void leave(std::size_t bytes) { of_others_ = bytes; }
+
   /// Unless it is of this target alone, where only new values may begin, of sharp folds, kept already, or would take
   /// memory that the run does not need without it. Where new values may begin must not depend on the peak, which
   /// depends on the threads. While vertices are removed the way is that to all smaller targets, too: such states take
@@ -42,13 +45,14 @@ class StateKeeper {
     const std::size_t peak = job_.memory.peak();
     if (most_ == 0) most_ = options_.one_of_many ? peak / 4 * 5 : peak;
     const std::size_t of_lists = SolidComplex::bytes_of_lists(remains.points.size(), remains.tets.size());
-    const std::size_t in_use = job_.memory.in_use() - remains.spare_bytes();
+    const std::size_t in_use = job_.memory.in_use() + of_others_ - remains.spare_bytes();
     return std::max(in_use + of_lists, options_.later + kept_) + remains.bytes() + progress.bytes() > most_;
   }
 
   Array<SolidState<m>> *states_;
   const SolidOptions &options_;
   Job &job_;
+  std::size_t of_others_ = 0;
   std::size_t kept_ = 0, most_ = 0;  // bytes of those that came to them, and in all while they come; 0: to be found
 };
 

@@ -15,7 +15,7 @@ double angle_between(const Vec3 &a, const Vec3 &b) { return std::atan2(glm::leng
 
 }  // namespace
 
-TriangleTree::TriangleTree(Span<const Vec3> points, Span<const Triangle> triangles, std::int64_t leaf, Job &job)
+TriangleTree::TriangleTree(Span<const Vec3> points, Span<const Triangle> triangles, Job &job, std::int64_t leaf)
     : points_(points), triangles_(triangles), tree_(job.memory) {
   Array<Box> boxes(&job.memory);
   boxes.reserve(triangles.size());
@@ -64,7 +64,7 @@ std::optional<int> TriangleTree::depth(const Vec3 &p, std::int32_t but) const {
 SurfaceDistance::SurfaceDistance(const Surface &surface, const SurfaceTopology &topology, std::int64_t leaf, Job &job)
     : surface_(surface),
       topology_(topology),
-      nearest_(surface.points, surface.triangles, leaf, job),
+      nearest_(surface.points, surface.triangles, job, leaf),
       vertex_normal_(topology.vertex_of.size(), Vec3(0), &job.memory) {
   for (std::size_t t = 0; t < surface.triangles.size(); t++) {
     if (t % 4096 == 0) job.poll(0);

@@ -20,7 +20,7 @@ struct NearestPoint {
 
 class TriangleTree {
  public:
-  TriangleTree(Span<const Vec3> points, Span<const Triangle> triangles, std::int64_t leaf, Job &job);
+  TriangleTree(Span<const Vec3> points, Span<const Triangle> triangles, Job &job, std::int64_t leaf = 8);
   /// usual2: few points are farther than its root. The less it is, the sooner the others' are found.
   NearestPoint nearest(const Vec3 &p, double usual2 = std::numeric_limits<double>::infinity()) const;
   /// Whether it is no farther than the root of `most2`: sooner than what is nearest.
@@ -38,17 +38,22 @@ class TriangleTree {
   KdTree tree_;
 };
 
-/// That of a surface, which stays as it is, from when it is first asked for until it is dropped.
+/// That of a surface, which stays as it is, from when it is first asked for until it is dropped. For one thread at a
+/// time.
 class TreeOnDemand {
  public:
   TreeOnDemand() = default;
   TreeOnDemand(Span<const Vec3> points, Span<const Triangle> triangles) : points_(points), triangles_(triangles) {}
 
   const TriangleTree &get(Job &job) {
-    constexpr std::int64_t leaf = 8;
-    if (!tree_) tree_.emplace(points_, triangles_, leaf, job);
+    if (!tree_) {
+      TriangleTree tree(points_, triangles_, job);
+      job.poll(0);  // of what is cancelled parts are missing
+      tree_ = std::move(tree);
+    }
     return *tree_;
   }
+  /// And what was got from it.
   void drop() { tree_.reset(); }
   /// About.
   std::size_t bytes_to_make() const { return tree_ ? 0 : 150 * triangles_.size(); }

@@ -53,44 +53,47 @@ class TopologyFinder {
     });
   }
 
-  /// Of the half-edges between two points, where they lie in sorted_.
-  struct Edge {
-    std::size_t begin, end;
-  };
-  /// Those of the edges of some points, in order: how many, and which are not simply two that run against each other.
-  struct Edges {
-    explicit Edges(Memory &memory) : others(&memory) {}
-    std::int64_t count = 0;
-    Array<Edge> others;
+  /// Edges of some points: how many, and how many of them are not simply two half-edges that run against each other.
+  struct Count {
+    std::int64_t all = 0, others = 0;
   };
 
-  /// The few edges that are no simple ones come one after another, so that what is told of is the first.
+  /// The few that are no simple ones come one after another, so that what is told of is the first.
   void pair_half_edges() {
-    const Array<Edges> parts =
-        parts_of(points_.size(), Edges(job_.memory), job_, [&](Edges &edges, std::size_t v) { pair_at(v, edges); });
-    for (const Edges &edges : parts) {
-      out_.edges += edges.count;
-      for (const Edge &edge : edges.others) pair_around_edge(edge.begin, edge.end);
+    const Array<Count> parts = parts_of(points_.size(), Count(), job_, [&](Count &count, std::size_t v) {
+      for_edges_at(v, [&](std::size_t begin, std::size_t end) {
+        const bool simple = is_simple(begin, end);
+        if (simple) pair(sorted_[begin].id, sorted_[begin + 1].id);
+        count.all++;
+        count.others += !simple;
+      });
+    });
+    for (std::size_t i = 0; i < parts.size(); i++) {
+      job_.poll(0);
+      out_.edges += parts[i].all;
+      const std::size_t end = parts[i].others > 0 ? std::min((i + 1) * stretch, points_.size()) : 0;
+      for (std::size_t v = i * stretch; v < end; v++)
+        for_edges_at(v, [&](std::size_t first, std::size_t last) {
+          if (!is_simple(first, last)) pair_around_edge(first, last);
+        });
     }
   }
 
-  void pair_at(std::size_t v, Edges &edges) {
+  /// visit(begin, end) of the half-edges between v and each higher point.
+  template <class Visit>
+  void for_edges_at(std::size_t v, const Visit &visit) const {
     const auto last = std::size_t(begin_[v + 1]);
     for (std::size_t i = std::size_t(begin_[v]), j = i; i < last; i = j) {
       while (j < last && sorted_[j].high == sorted_[i].high) j++;
-      edges.count++;
-      if (j - i == 2 && from(sorted_[i].id) != from(sorted_[i + 1].id))
-        pair(sorted_[i].id, sorted_[i + 1].id);
-      else
-        edges.others.push_back({i, j});
+      visit(i, j);
     }
   }
 
+  bool is_simple(std::size_t begin, std::size_t end) const {
+    return end - begin == 2 && from(sorted_[begin].id) != from(sorted_[begin + 1].id);
+  }
+
   void pair_around_edge(std::size_t begin, std::size_t end) {
-    if (end - begin == 2) {
-      pair(sorted_[begin].id, sorted_[begin + 1].id);
-      return;
-    }
     if ((end - begin) % 2)
       fail(Status::mesh_nonmanifold, "%zu boundary faces meet at the edge from vertex %lld to vertex %lld", end - begin,
            numbers_.vertex(low_end(sorted_[begin].id)), numbers_.vertex(sorted_[begin].high));

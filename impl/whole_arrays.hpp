@@ -3,6 +3,7 @@
 #pragma once
 #include <algorithm>
 #include <cstdint>
+#include <type_traits>
 
 #include "job.hpp"
 #include "mesh.hpp"
@@ -80,6 +81,7 @@ inline Array<std::int32_t> used_vertices(const MeshView &mesh, Job &job) {
 /// What add(part, i) makes of the items of each stretch of `count`, from `none` on.
 template <class T, class Add>
 Array<T> parts_of(std::size_t count, const T &none, Job &job, const Add &add) {
+  static_assert(std::is_trivially_copyable_v<T>, "copies of arrays would be nobody's memory");
   Array<T> parts(count / stretch + 1, none, &job.memory);
   job.parallel.for_blocks(count, stretch, [&](std::size_t begin, std::size_t end) {
     T part = none;

@@ -6,6 +6,7 @@
 #include "decimate_solid_and_check.hpp"
 #include "geometry.hpp"
 #include "meshes.hpp"
+#include "surface_distance.hpp"
 
 namespace tetlod::test {
 
@@ -53,8 +54,9 @@ class DecimateSolid : public testing::Test {
   bool decimate(double ratio, Host &on, SolidHistory &history, CoarseSolid &coarse) {
     options.tets = std::int64_t(ratio * double(original.tets.size()));
     const MeshView view = original.view();
-    TreeOnDemand tree(surface.points, surface.triangles);  // of memory that lives as long as `on`
-    coarse = decimate_solid_and_check({view, boundary, surface, topology, tree}, options, lowered, history, on.job);
+    TreeOnDemand tree_there(surface.points, surface.triangles);  // of memory of `on`
+    coarse =
+        decimate_solid_and_check({view, boundary, surface, topology, tree_there}, options, lowered, history, on.job);
     failure = coarse.wrong;
     return failure.empty();
   }

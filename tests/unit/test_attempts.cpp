@@ -2,6 +2,7 @@
 #include "attempts.hpp"
 #include "beginning.hpp"
 #include "decimate_solid_and_check.hpp"
+#include "surface_distance.hpp"
 #include "whole_run.hpp"
 
 namespace tetlod {

@@ -107,7 +107,7 @@ TEST_F(Cull, DistanceToACube) {
 /// What is said of it beforehand makes it sooner, not another; also where it is none.
 TEST_F(Cull, TheNearestWhateverIsUsual) {
   const Surface surface = random_blob(host.memory, 6, 1);
-  const TriangleTree tree(surface.points, surface.triangles, 4, host.job);
+  const TriangleTree tree(surface.points, surface.triangles, host.job, 4);
   points.assign(surface.points.begin(), surface.points.end());
   scatter(surface, 200);
   scatter_near(surface, 600);
