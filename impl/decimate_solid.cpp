@@ -11,6 +11,7 @@
 #include "solid_costs.hpp"
 #include "solid_places.hpp"
 #include "state_keeper.hpp"
+#include "status.hpp"
 #include "surface_distance.hpp"
 
 namespace tetlod {
@@ -137,7 +138,8 @@ class SolidDecimator {
   void make_tree() {
     try {
       tree_.get(job_);
-    } catch (...) {  // it is made, or fails, where it is asked for
+    } catch (const Error &error) {  // where memory is short it is made later, when collapses have given theirs back
+      if (error.status() != Status::memory && error.status() != Status::memory_limit) throw;
     }
   }
 
