@@ -54,8 +54,6 @@ TriangleInSpace spoke_of(const Star &star, std::size_t i) {
   return {star.centre, star.ring[i], star.ring[star.after(i)]};
 }
 
-Vec3 middle_of_edge(const Star &star, std::size_t i) { return 0.5 * (star.centre + star.ring[i]); }
-
 /// A new triangle near enough to p, `first` before others; the star's size if there is none.
 std::size_t near_spoke(const Star &star, std::size_t first, const Vec3 &p, double limit2) {
   for (std::size_t i = 0; i < star.size(); i++) {
@@ -74,16 +72,18 @@ double largest_deviation(const Surface &a, TreeOnDemand &tree_of_a, const Surfac
 
 void SamplesOfStar::begin(const Star &star) {
   homes_.clear();
-  centre_ = {};
-  edges_.assign(star.size(), {});
-  middles_.assign(star.size(), {});
+  places_.clear();
+  places_.push_back({star.centre});
+  for (const Vec3 &p : star.ring) places_.push_back({0.5 * (star.centre + p)});
+  for (std::size_t i = 0; i < star.size(); i++) places_.push_back({spoke_of(star, i).middle()});
 }
 
 void SamplesOfStar::add(const Star &star, std::int32_t sample, const Vec3 &p, std::size_t spoke) {
   homes_.push_back({sample, star.spoke_face(spoke)});
-  centre_.look_at(sample, length2(star.centre - p));
-  for (std::size_t i : {spoke, star.after(spoke)}) edges_[i].look_at(sample, length2(middle_of_edge(star, i) - p));
-  middles_[spoke].look_at(sample, length2(spoke_of(star, spoke).middle() - p));
+  for (std::size_t i : {std::size_t(0), 1 + spoke, 1 + star.after(spoke), 1 + star.size() + spoke}) {
+    Place &place = places_[i];
+    if (const double d = length2(place.point - p); d < place.distance2) place = {place.point, sample, d};
+  }
 }
 
 DeviationLimit::DeviationLimit(const Surface &original, const TriangleTree &nearest, double limit, Job &job)
@@ -110,21 +110,17 @@ bool DeviationLimit::is_passed(const Star &star, SamplesOfStar &of_star) const {
       if (spoke == star.size()) return true;
       of_star.add(star, s, p, spoke);
     }
-  if (is_far(star.centre, of_star.at_centre())) return true;
-  for (std::size_t i = 0; i < star.size(); i++) {
-    if (is_far(middle_of_edge(star, i), of_star.at_edge(i)) || is_far(spoke_of(star, i).middle(), of_star.at_middle(i)))
-      return true;
-  }
-  return false;
+  return std::any_of(of_star.places().begin(), of_star.places().end(),
+                     [&](const SamplesOfStar::Place &place) { return is_far(place); });
 }
 
 /// Mostly the original's triangle with the nearest sample is near enough.
-bool DeviationLimit::is_far(const Vec3 &p, const NearestSample &near) const {
-  if (near.sample >= 0) {
-    const Triangle &t = original_.triangles[std::size_t(triangle_[std::size_t(near.sample)])];
-    if (TriangleInSpace(original_.points, t).distance2_to(p) <= limit2_) return false;
+bool DeviationLimit::is_far(const SamplesOfStar::Place &place) const {
+  if (place.nearest >= 0) {
+    const Triangle &t = original_.triangles[std::size_t(triangle_[std::size_t(place.nearest)])];
+    if (TriangleInSpace(original_.points, t).distance2_to(place.point) <= limit2_) return false;
   }
-  return !nearest_.is_within(p, limit2_);
+  return !nearest_.is_within(place.point, limit2_);
 }
 
 void DeviationLimit::move_on(const Star &star, const SamplesOfStar &of_star) {

@@ -18,19 +18,11 @@ inline Samples samples_for(double limit) { return limit > 0 ? Samples::between_t
 /// The largest distance from a sample of either surface to the other surface.
 double largest_deviation(const Surface &a, TreeOnDemand &tree_of_a, const Surface &b, Samples samples, Job &job);
 
-/// Of some samples, the one nearest to a point of a star, so far.
-struct NearestSample {
-  std::int32_t sample = -1;
-  double distance2 = std::numeric_limits<double>::infinity();
-  void look_at(std::int32_t other, double distance2_of_other) {
-    if (distance2_of_other < distance2) *this = {other, distance2_of_other};
-  }
-};
-
-/// What the spokes of a star would stand for, each for the samples that are near it.
+/// What the spokes of a star would stand for, and for each of the star's own samples the one of the original's that is
+/// nearest, so far.
 class SamplesOfStar {
  public:
-  explicit SamplesOfStar(Memory &memory) : homes_(&memory), edges_(&memory), middles_(&memory) {}
+  explicit SamplesOfStar(Memory &memory) : homes_(&memory), places_(&memory) {}
 
   void begin(const Star &star);
   void add(const Star &star, std::int32_t sample, const Vec3 &p, std::size_t spoke);
@@ -38,16 +30,17 @@ class SamplesOfStar {
   struct Home {
     std::int32_t sample, triangle;
   };
+  struct Place {
+    Vec3 point;
+    std::int32_t nearest = -1;
+    double distance2 = std::numeric_limits<double>::infinity();
+  };
   Span<const Home> homes() const { return homes_; }
-  /// Those nearest to the centre, to the middle of the edge from it to ring vertex i, and to that of spoke i.
-  const NearestSample &at_centre() const { return centre_; }
-  const NearestSample &at_edge(std::size_t i) const { return edges_[i]; }
-  const NearestSample &at_middle(std::size_t i) const { return middles_[i]; }
+  Span<const Place> places() const { return places_; }
 
  private:
   Array<Home> homes_;
-  NearestSample centre_;
-  Array<NearestSample> edges_, middles_;
+  Array<Place> places_;  // the centre, the middles of the edges from it to the ring, those of the spokes
 };
 
 /// Keeps all samples of the original surface within a distance of the triangles that stand for them, and those of the
@@ -65,7 +58,7 @@ class DeviationLimit {
   void move_on(const Star &star, const SamplesOfStar &of_star);
 
  private:
-  bool is_far(const Vec3 &p, const NearestSample &near) const;
+  bool is_far(const SamplesOfStar::Place &place) const;
 
   const Surface &original_;
   double limit2_;
