@@ -77,7 +77,9 @@ class SolidDecimator {
       collapse_some(limit);
       keep_where(left_, job_, [&](std::size_t i) { return mesh_.has_vertex(left_[i]); });
       progress_.round++;
-      if (gaps_are_due())
+      const bool due = gaps_are_due();
+      progress_.allow_by_gaps(count_, due);
+      if (due)
         close_gaps();
       else
         mesh_.tidy({rooms_.data(), rooms_.size()}, job_);

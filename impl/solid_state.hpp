@@ -35,6 +35,11 @@ struct SolidProgress {
 
   /// For larger targets the round that is done would have been another one.
   void allow(double target) { largest_target = std::min(largest_target, std::int64_t(std::floor(target))); }
+  /// With `count` tets gaps are closed, or not. If not because they are few already, it is because of the size: others
+  /// are near elsewhere.
+  void allow_by_gaps(std::int64_t count, bool closed) {
+    if (follows() && count >= next_closing) allow(closed ? -1 : 0.5 * double(count) - 1);
+  }
   /// Far from so many tets vertices are removed, near them, or where no more may go, edges collapse. From here on it is
   /// so with `count` tets.
   void choose_way(std::int64_t count, std::int64_t tets);
