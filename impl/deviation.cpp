@@ -28,13 +28,19 @@ void for_samples(const Surface &surface, Samples samples, Memory &memory, const 
   }
 }
 
+/// With those between. Of a closed surface, which has three edges for two triangles.
+std::size_t count_samples(const Surface &surface) {
+  return surface.points.size() + surface.triangles.size() + surface.triangles.size() / 2 * 3;
+}
+
 /// The distance of the farthest of every `step` points, or `known`, if that is more.
 double farthest(Span<const Vec3> points, std::size_t step, const TriangleTree &to, double known, Job &job) {
   Array<double> of_blocks(points.size() / (step * block) + 1, known, &job.memory);
   job.parallel.for_blocks((points.size() + step - 1) / step, block, [&](std::size_t begin, std::size_t end) {
     double &most = of_blocks[begin / block];
+    std::int32_t near = -1;  // often the same one for several points
     for (std::size_t i = begin; i < end; i++)
-      if (const Vec3 &p = points[i * step]; !to.is_within(p, most * most))
+      if (const Vec3 &p = points[i * step]; !to.is_within(p, most * most, near))
         most = std::max(most, to.nearest(p).distance);
     job.poll(0);
   });
@@ -87,13 +93,16 @@ void SamplesOfStar::add(const Star &star, std::int32_t sample, const Vec3 &p, st
 }
 
 DeviationLimit::DeviationLimit(const Surface &original, const TriangleTree &nearest, double limit, Job &job)
-    : original_(original),
-      limit2_(limit * limit),
+    : limit2_(limit * limit),
       nearest_(nearest),
       samples_(&job.memory),
       triangle_(&job.memory),
       first_(original.triangles.size(), -1, &job.memory),
       next_(&job.memory) {
+  const std::size_t most = count_samples(original);
+  samples_.reserve(most);
+  triangle_.reserve(most);
+  next_.reserve(most);
   for_samples(original, Samples::between_too, job.memory, [&](const Vec3 &p, std::size_t t) {
     next_.push_back(std::exchange(first_[t], std::int32_t(samples_.size())));
     samples_.push_back(p);
@@ -116,11 +125,8 @@ bool DeviationLimit::is_passed(const Star &star, SamplesOfStar &of_star) const {
 
 /// Mostly the original's triangle with the nearest sample is near enough.
 bool DeviationLimit::is_far(const SamplesOfStar::Place &place) const {
-  if (place.nearest >= 0) {
-    const Triangle &t = original_.triangles[std::size_t(triangle_[std::size_t(place.nearest)])];
-    if (TriangleInSpace(original_.points, t).distance2_to(place.point) <= limit2_) return false;
-  }
-  return !nearest_.is_within(place.point, limit2_);
+  std::int32_t near = place.nearest >= 0 ? triangle_[std::size_t(place.nearest)] : -1;
+  return !nearest_.is_within(place.point, limit2_, near);
 }
 
 void DeviationLimit::move_on(const Star &star, const SamplesOfStar &of_star) {

@@ -60,7 +60,6 @@ class DeviationLimit {
  private:
   bool is_far(const SamplesOfStar::Place &place) const;
 
-  const Surface &original_;
   double limit2_;
   const TriangleTree &nearest_;
   Array<Vec3> samples_;               // of the original

@@ -48,7 +48,7 @@ class FaceSweep {
 
  private:
   static constexpr std::size_t most_chunks = 4;
-  static constexpr std::size_t least_faces = 1 << 16;
+  static constexpr std::size_t least_faces = 1 << 14;
 
   /// The first vertex of a chunk: each has about as many faces.
   std::size_t first_vertex(std::size_t chunk) const {

@@ -42,11 +42,14 @@ NearestPoint TriangleTree::nearest(const Vec3 &p, double usual2) const {
   return best;
 }
 
-bool TriangleTree::is_within(const Vec3 &p, double most2) const {
+bool TriangleTree::is_within(const Vec3 &p, double most2, std::int32_t &near) const {
   constexpr double no_more = -1;  // none is nearer, so that the search ends
+  if (near >= 0 && triangle(near).distance2_to(p) <= most2) return true;
   double best = most2;
   const auto end_or_go_on = [&](std::int32_t t) { return triangle(t).distance2_to(p) <= most2 ? no_more : infinity; };
-  return tree_.nearest(p, best, end_or_go_on) >= 0;
+  const std::int32_t found = tree_.nearest(p, best, end_or_go_on);
+  if (found >= 0) near = found;
+  return found >= 0;
 }
 
 std::optional<int> TriangleTree::depth(const Vec3 &p, std::int32_t but) const {

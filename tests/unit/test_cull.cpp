@@ -120,8 +120,13 @@ TEST_F(Cull, TheNearestWhateverIsUsual) {
       ASSERT_EQ(sooner.triangle, plain.triangle) << usual2;
       ASSERT_EQ(sooner.distance, plain.distance) << usual2;
     }
-    EXPECT_EQ(tree.is_within(p, 0.99 * distance2), plain.distance == 0);
-    EXPECT_TRUE(tree.is_within(p, 1.01 * distance2));
+    for (std::int32_t first : {-1, 0, plain.triangle}) {
+      std::int32_t near = first;
+      EXPECT_EQ(tree.is_within(p, 0.99 * distance2, near), plain.distance == 0);
+      EXPECT_TRUE(tree.is_within(p, 1.01 * distance2, near));
+      EXPECT_LE(TriangleInSpace(surface.points, surface.triangles[std::size_t(near)]).distance2_to(p),
+                1.01 * distance2);
+    }
   }
 }
 
