@@ -422,8 +422,8 @@ TETLOD_API tetlod_status tetlod_estimate_memory(tetlod_context *context, uint64_
  *   and policies are the same and all values are finite;
  *   the boundary's decimation, if lambda, clean-edges and max-deviation are the same as well, to a sigma that is not
  *   smaller; with a target ratio or a bound its cost sees the field: then only for the same values;
- *   where edges of the solid collapse (TETLOD_OPT_EFFORT) and the values, their weights and the flags are the
- *   same, without max-deviation: what other sizes have in common with this one, whichever came first;
+ *   where edges of the solid collapse (TETLOD_OPT_EFFORT) and the values, their weights and the flags are the same, and
+ *   whether there is a warm start, without max-deviation: what sizes have in common, whichever came first;
  *   what culling found of each sample, if sigma, min-distance and boundary-leaf are also those of the last run.
  * The same means the same contents (by a fingerprint of 128 bits, taken anew in every run) in the same layout: arrays
  * may be changed in place, or submitted again. What is kept for that counts as memory of the context; a run that fails

@@ -62,10 +62,11 @@ void SolidHistory::begin(const MeshView &original, bool holds_bound, bool hasty,
   values.add(original.scalars, job);
   now_ = values;
   repeated_ = !is_earlier();
-  const bool same_way = holds_bound == holds_bound_ && hasty == hasty_;
+  const bool same_way = holds_bound == holds_bound_ && hasty == hasty_ && keeps_earlier == keeps_earlier_;
   if (!same_way || (is_earlier() && !keeps_earlier)) forget_earlier(job.memory);
   holds_bound_ = holds_bound;
   hasty_ = hasty;
+  keeps_earlier_ = keeps_earlier;
 }
 
 void SolidHistory::forget(Memory &memory) {

@@ -35,8 +35,8 @@ struct SolidProgress {
 
   /// For larger targets the round that is done would have been another one.
   void allow(double target) { largest_target = std::min(largest_target, std::int64_t(std::floor(target))); }
-  /// With `count` tets gaps are closed, or not. If not because they are few already, it is because of the size: others
-  /// are near elsewhere.
+  /// Gaps are closed with `count` tets, or not. Where that is not due for every size, it depends on how near this one
+  /// is.
   void allow_by_gaps(std::int64_t count, bool closed) {
     if (follows() && count >= next_closing) allow(closed ? -1 : 0.5 * double(count) - 1);
   }
@@ -79,7 +79,7 @@ class SolidHistory {
   explicit SolidHistory(Memory &memory) : states_(Array<SolidState<1>>(&memory)) {}
 
   /// Forgets the states, unless they are of the same values, or those of earlier ones are to be kept. For a bound there
-  /// are others, and for the hasty.
+  /// are others, for the hasty, and where they are kept.
   void begin(const MeshView &original, bool holds_bound, bool hasty, bool keeps_earlier, Job &job);
   bool is_earlier() const { return !(now_ == values_); }
   /// Whether it began with these values before.
@@ -115,7 +115,7 @@ class SolidHistory {
   }
 
  private:
-  bool holds_bound_ = false, hasty_ = false, repeated_ = false;
+  bool holds_bound_ = false, hasty_ = false, keeps_earlier_ = false, repeated_ = false;
   Fingerprint values_, now_;
   double usual_cost_ = 0;
   std::int64_t tets_of_cost_ = 0;

@@ -1,6 +1,7 @@
 // Step after step: what a context takes over from its earlier runs shows in the report and in the clock, and nowhere in
 // the bytes of a result.
 #include <limits>
+#include <random>
 
 #include "reuse_fixture.hpp"
 
@@ -114,8 +115,9 @@ class CollapseReuse : public Reuse {
   CollapseReuse() { cube = Cube(12); }
 
   /// How many collapses were taken over.
-  std::int64_t level(double ratio, double bound, int effort = TETLOD_EFFORT_FAST) {
+  std::int64_t level(double ratio, double bound, int effort = TETLOD_EFFORT_FAST, double warm_start = 0) {
     options = {[=](tetlod_context *of) {
+      tetlod_set_real(of, TETLOD_OPT_WARM_START, warm_start);
       tetlod_set_real(of, TETLOD_OPT_TARGET_RATIO, ratio);
       tetlod_set_real(of, TETLOD_OPT_MAX_ERROR, bound);
       tetlod_set_int(of, TETLOD_OPT_EFFORT, effort);
@@ -153,6 +155,20 @@ TEST_F(CollapseReuse, Sizes) {
 /// They begin anew in each of several attempts, with all the memory.
 TEST_F(CollapseReuse, NotOfSmallMeshesForAccuracy) {
   for (double ratio : {0.2, 0.2, 0.2, 0.05}) EXPECT_EQ(level(ratio, 0, TETLOD_EFFORT_ACCURATE), 0) << ratio;
+}
+
+/// Of the same values, with warm-start or without, which then gives no bytes up.
+TEST_F(CollapseReuse, RunsInAnyOrder) {
+  std::mt19937 random(1);
+  const auto one_of = [&](std::initializer_list<double> values) { return values.begin()[random() % values.size()]; };
+  std::int64_t reused = 0;
+  for (int run = 0; run < 40; run++) {
+    const double warm_start = one_of({0, 0.1}), ratio = one_of({0.03, 0.05, 0.07, 0.1, 0.12, 0.14, 0.3});
+    SCOPED_TRACE(testing::Message() << "run " << run << ", ratio " << ratio << ", warm-start " << warm_start);
+    const int effort = one_of({0, 1}) > 0 ? TETLOD_EFFORT_FAST : TETLOD_EFFORT_ACCURATE;
+    reused += level(ratio, one_of({0, 0, 0, 0.05}), effort, warm_start);
+  }
+  EXPECT_GT(reused, 0);
 }
 
 /// The one promise of the same bytes that is given up, by who asks for it.

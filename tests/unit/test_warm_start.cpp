@@ -137,7 +137,8 @@ TEST_F(WarmStart, OtherSizesOfTheSameValuesHaveTheirOwnBytes) {
     options.hasty = hasty;
     SolidHistory history(host.memory);
     history.begin(original.view(), false, hasty, true, host.job);
-    for (double ratio : {0.1, 0.03, 0.06, 0.2, 0.01, 0.05, 0.11, 0.12, 0.13, 0.14, 0.15, 0.02, 0.022, 0.024, 0.026, 0.028}) {
+    for (double ratio :
+         {0.1, 0.03, 0.06, 0.2, 0.01, 0.05, 0.11, 0.12, 0.13, 0.14, 0.15, 0.02, 0.022, 0.024, 0.026, 0.028}) {
       CoarseSolid next(host.memory), alone(host.memory);
       ASSERT_TRUE(decimate(ratio, host, history, next)) << failure;
       ASSERT_TRUE(decimate(ratio, host, alone)) << failure;
