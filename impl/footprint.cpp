@@ -25,6 +25,8 @@ constexpr double seldom_a_triangle = 390, seldom_values_a_triangle = 4;
 // Of the original while its edges collapse.
 constexpr double bytes_a_solid_tet = 67, bytes_a_solid_point = 54, bytes_a_solid_triangle = 157,
                  bytes_of_collapses = 8e4;
+// Beside either, where the deviation is limited: samples, their lists, and a tree.
+constexpr double bytes_a_limited_triangle = 240;
 // Of a run with a target: neighbours, frames or normal equations, and room to grow; of the original's boundary.
 constexpr double bytes_a_refined_tet = 164, bytes_a_refined_triangle = 171, bytes_a_probe = sizeof(Probe<1>) + 8;
 // Of these for each field more that steers.
@@ -44,14 +46,15 @@ double bytes_of_decimation(const Outlook &outlook) {
     a_triangle = seldom_a_triangle + seldom_values_a_triangle * more_values(outlook);
   else if (outlook.probes > 0)
     a_triangle += quadric_a_triangle + values_a_triangle * more_values(outlook);
-  return a_triangle * outlook.boundary_triangles;
+  return a_triangle * outlook.boundary_triangles + bytes_a_limited_triangle * outlook.limited_triangles;
 }
 
 double bytes_of_collapsing(const Outlook &outlook) {
   if (!(outlook.solid_tets > 0)) return 0;
   return bytes_a_solid_tet * outlook.solid_tets +
          (bytes_a_solid_point + values_a_solid_point * more_values(outlook)) * outlook.solid_points +
-         bytes_a_solid_triangle * outlook.boundary_triangles + bytes_of_collapses;
+         bytes_a_solid_triangle * outlook.boundary_triangles + bytes_a_limited_triangle * outlook.limited_triangles +
+         bytes_of_collapses;
 }
 
 double bytes_of_fields(const Outlook &outlook, const Input &input) {
@@ -174,6 +177,7 @@ Outlook outlook_of(const Original &original, const Boundary &boundary, Span<cons
                    const Options &options, const Budget &budget, const Report &report, Job &job) {
   Outlook of;
   of.boundary_triangles = double(boundary.triangles.size());
+  if (options.max_deviation > 0) of.limited_triangles = of.boundary_triangles;
   if (as_published(options)) {
     const double least = options.min_distance * original.box.diagonal();
     const double away =

@@ -11,6 +11,7 @@ namespace tetlod {
 /// What is to be expected of a run.
 struct Outlook {
   double boundary_triangles = 0;            ///< of the original
+  double limited_triangles = 0;             ///< the same, where the deviation is limited; else 0
   double points = 0, tets = 0;              ///< of the result
   double probes = 0;                        ///< of a run with a target; 0: none
   double solid_tets = 0, solid_points = 0;  ///< of the original, where its edges collapse; else 0

@@ -91,6 +91,19 @@ TEST(EstimateMemory, KnowsThinSolids) {
       }
 }
 
+/// Most of them where there are many triangles.
+TEST(EstimateMemory, KnowsLimitsToTheDeviation) {
+  for (int layers : {1, 3, 20})
+    for (double ratio : {0.0, 0.1, 0.4}) {
+      const Cube cube = plate(20, layers);
+      const Context context = make_context();
+      submit(context.get(), cube);
+      ASSERT_EQ(tetlod_set_real(context.get(), TETLOD_OPT_TARGET_RATIO, ratio), TETLOD_OK);
+      ASSERT_EQ(tetlod_set_real(context.get(), TETLOD_OPT_MAX_DEVIATION, 0.01), TETLOD_OK);
+      expect_estimate(context.get(), std::to_string(layers) + " layers, ratio " + std::to_string(ratio));
+    }
+}
+
 /// What a context keeps of earlier runs counts once, and shortens the next; the estimate does what that begins with.
 TEST(EstimateMemory, OfALaterRunIsLessThanThreeTimesWhatItTakes) {
   Cube cube(32);
