@@ -44,10 +44,10 @@ struct SolidOptions {
 /// mesh: what is left, as many tets as there shall be, a thousandth more at most, or more where no further collapse is
 /// admissible, or cheap enough; points, values, tets and boundary, of the original's topology and, to 1 %, its volume.
 /// origin: the original vertex that each point still is, or -1. Tets that were flat may be left, and the boundary may
-/// cross itself: to be looked at. history: of this mesh, with these values and flags; it shortens the way to the same
-/// bytes, and gets more states, but with max_deviation; of earlier values, with a warm start, it shortens the way to
-/// others; restored vertices it forgets all for. original.tree is dropped, and may be made anew. Returns how many
-/// collapses it saved.
+/// cross itself: to be looked at. history: of this mesh, begun with these values and this way, and with these flags; it
+/// shortens the way to the same bytes, and gets more states, but with max_deviation; of earlier values, with a warm
+/// start, it shortens the way to others; restored vertices it forgets all for. original.tree is dropped, and may be
+/// made anew. Returns how many collapses it saved.
 std::int64_t decimate_solid(const OriginalSolid &original, const SolidOptions &options, SolidHistory &history, Job &job,
                             TetMesh &mesh, Array<std::int32_t> &origin);
 

@@ -40,21 +40,24 @@ double more_values(const Outlook &outlook) { return sizeof(double) * (outlook.fi
 /// Of a result, and of what it is written to.
 double bytes_of_result(const Outlook &outlook) { return 32 * outlook.points + 16 * outlook.tets; }
 
+double bytes_of_limit(const Outlook &outlook) {
+  return outlook.limits_deviation ? bytes_a_limited_triangle * outlook.boundary_triangles : 0;
+}
+
 double bytes_of_decimation(const Outlook &outlook) {
   double a_triangle = bytes_a_triangle;
   if (outlook.solid_tets > 0)
     a_triangle = seldom_a_triangle + seldom_values_a_triangle * more_values(outlook);
   else if (outlook.probes > 0)
     a_triangle += quadric_a_triangle + values_a_triangle * more_values(outlook);
-  return a_triangle * outlook.boundary_triangles + bytes_a_limited_triangle * outlook.limited_triangles;
+  return a_triangle * outlook.boundary_triangles + bytes_of_limit(outlook);
 }
 
 double bytes_of_collapsing(const Outlook &outlook) {
   if (!(outlook.solid_tets > 0)) return 0;
   return bytes_a_solid_tet * outlook.solid_tets +
          (bytes_a_solid_point + values_a_solid_point * more_values(outlook)) * outlook.solid_points +
-         bytes_a_solid_triangle * outlook.boundary_triangles + bytes_a_limited_triangle * outlook.limited_triangles +
-         bytes_of_collapses;
+         bytes_a_solid_triangle * outlook.boundary_triangles + bytes_of_limit(outlook) + bytes_of_collapses;
 }
 
 double bytes_of_fields(const Outlook &outlook, const Input &input) {
@@ -177,7 +180,7 @@ Outlook outlook_of(const Original &original, const Boundary &boundary, Span<cons
                    const Options &options, const Budget &budget, const Report &report, Job &job) {
   Outlook of;
   of.boundary_triangles = double(boundary.triangles.size());
-  if (options.max_deviation > 0) of.limited_triangles = of.boundary_triangles;
+  of.limits_deviation = options.max_deviation > 0;
   if (as_published(options)) {
     const double least = options.min_distance * original.box.diagonal();
     const double away =

@@ -11,12 +11,12 @@ namespace tetlod {
 /// What is to be expected of a run.
 struct Outlook {
   double boundary_triangles = 0;            ///< of the original
-  double limited_triangles = 0;             ///< the same, where the deviation is limited; else 0
   double points = 0, tets = 0;              ///< of the result
   double probes = 0;                        ///< of a run with a target; 0: none
   double solid_tets = 0, solid_points = 0;  ///< of the original, where its edges collapse; else 0
   double fields = 1;                        ///< that steer
-  double results_aside = 0;                 ///< of attempts, while another is refined
+  bool limits_deviation = false;
+  double results_aside = 0;  ///< of attempts, while another is refined
 };
 
 /// Bytes of the largest stage that is still to come, beside what is in use after sampling. By experience: the

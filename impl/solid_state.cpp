@@ -20,6 +20,7 @@ SolidProgress::SolidProgress(const SolidProgress &of, Memory &memory)
       most_waited(of.most_waited),
       relaxed(of.relaxed),
       largest_target(of.largest_target),
+      largest_size(of.largest_size),
       next_closing(of.next_closing),
       cost(of.cost),
       cheapest(of.cheapest, &memory),

@@ -38,7 +38,9 @@ struct SolidProgress {
   /// Gaps are closed with `count` tets, or not. Where that is not due for every size, it depends on how near this one
   /// is.
   void allow_by_gaps(std::int64_t count, bool closed) {
-    if (follows() && count >= next_closing) allow(closed ? -1 : 0.5 * double(count) - 1);
+    if (!follows() || count < next_closing) return;
+    if (closed) allow(-1);
+    largest_size = std::min(largest_size, count / 2 - 1);
   }
   /// Far from so many tets vertices are removed, near them, or where no more may go, edges collapse. From here on it is
   /// so with `count` tets.
@@ -56,6 +58,7 @@ struct SolidProgress {
   bool most_waited = false;                                                ///< in the round before
   int relaxed = 0;                                                         ///< rules, where nothing was admissible
   std::int64_t largest_target = std::numeric_limits<std::int64_t>::max();  ///< up to it the rounds so far are the same
+  std::int64_t largest_size = std::numeric_limits<std::int64_t>::max();    ///< likewise, as gaps were not closed
   std::int64_t next_closing = 0;                                           ///< with fewer tets, gaps are closed
   double cost = 0;                                                         ///< of all collapses so far
   Array<CheapestEdge> cheapest;                                            ///< of each vertex
@@ -78,8 +81,8 @@ class SolidHistory {
  public:
   explicit SolidHistory(Memory &memory) : states_(Array<SolidState<1>>(&memory)) {}
 
-  /// Forgets the states, unless they are of the same values, or those of earlier ones are to be kept. For a bound there
-  /// are others, for the hasty, and where they are kept.
+  /// Forgets the states, unless they are of the same values, or those of earlier ones are to be kept; and of another
+  /// way: for a bound, in haste, or as earlier ones are kept or not.
   void begin(const MeshView &original, bool holds_bound, bool hasty, bool keeps_earlier, Job &job);
   bool is_earlier() const { return !(now_ == values_); }
   /// Whether it began with these values before.
@@ -99,10 +102,11 @@ class SolidHistory {
   /// are more; null: none is kept.
   template <std::size_t m>
   const SolidState<m> *before(std::int64_t target, std::int64_t tets, std::int64_t least, Memory &memory) {
+    const std::int64_t size = std::max(target, tets);
     const SolidState<m> *last = nullptr;
     for (const SolidState<m> &state : states<m>(memory))
-      if (target <= state.progress.largest_target && state.progress.leads_to(std::max(target, tets)) &&
-          std::int64_t(state.remains.tets.size()) >= least)
+      if (target <= state.progress.largest_target && size <= state.progress.largest_size &&
+          state.progress.leads_to(size) && std::int64_t(state.remains.tets.size()) >= least)
         last = &state;
     return last;
   }

@@ -24,7 +24,7 @@ class TriangleTree {
   /// usual2: few points are farther than its root. The less it is, the sooner the others' are found.
   NearestPoint nearest(const Vec3 &p, double usual2 = std::numeric_limits<double>::infinity()) const;
   /// Whether it is no farther than the root of `most2`: sooner than what is nearest. near: a triangle that may be no
-  /// farther; becomes one that is not. -1: none is known.
+  /// farther, -1: none is known; becomes one that is not, where there is one.
   bool is_within(const Vec3 &p, double most2, std::int32_t &near) const;
   /// In how much material p is, by the triangles, but for one, on a ray to it: exact. Nothing where it is on one of
   /// them.
