@@ -25,7 +25,7 @@ constexpr double seldom_a_triangle = 390, seldom_values_a_triangle = 4;
 // Of the original while its edges collapse.
 constexpr double bytes_a_solid_tet = 67, bytes_a_solid_point = 54, bytes_a_solid_triangle = 157,
                  bytes_of_collapses = 8e4;
-// Beside either, where the deviation is limited: samples, their lists, and a tree.
+// Beside either, where the deviation is limited: samples, their lists, and a tree; of six sets.
 constexpr double bytes_a_limited_triangle = 240;
 // Of a run with a target: neighbours, frames or normal equations, and room to grow; of the original's boundary.
 constexpr double bytes_a_refined_tet = 164, bytes_a_refined_triangle = 171, bytes_a_probe = sizeof(Probe<1>) + 8;

@@ -35,8 +35,7 @@ struct SolidProgress {
 
   /// For larger targets the round that is done would have been another one.
   void allow(double target) { largest_target = std::min(largest_target, std::int64_t(std::floor(target))); }
-  /// Gaps are closed with `count` tets, or not. Where that is not due for every size, it depends on how near this one
-  /// is.
+  /// Gaps are closed with `count` tets, or not, and if that is not due for every size, because this one is near or far.
   void allow_by_gaps(std::int64_t count, bool closed) {
     if (!follows() || count < next_closing) return;
     if (closed) allow(-1);
@@ -58,7 +57,7 @@ struct SolidProgress {
   bool most_waited = false;                                                ///< in the round before
   int relaxed = 0;                                                         ///< rules, where nothing was admissible
   std::int64_t largest_target = std::numeric_limits<std::int64_t>::max();  ///< up to it the rounds so far are the same
-  std::int64_t largest_size = std::numeric_limits<std::int64_t>::max();    ///< likewise, as gaps were not closed
+  std::int64_t largest_size = std::numeric_limits<std::int64_t>::max();    ///< likewise, as gaps were left
   std::int64_t next_closing = 0;                                           ///< with fewer tets, gaps are closed
   double cost = 0;                                                         ///< of all collapses so far
   Array<CheapestEdge> cheapest;                                            ///< of each vertex
