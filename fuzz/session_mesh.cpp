@@ -272,6 +272,7 @@ void Session::check(const Disturbance &disturbance) {
   const tetlod_status after = run({});
   if (after == TETLOD_ERR_MEMORY_LIMIT || after == TETLOD_ERR_TIME_LIMIT) return;
   if (report.status == TETLOD_ERR_MESH_INTERSECTING && after == TETLOD_OK) return;  // decimation took the crossing away
+  if (after == TETLOD_ERR_BACKEND_MISSING && option(TETLOD_OPT_REMESH) == 0) return;  // before it looks at the mesh
   if (report.status != TETLOD_OK)
     DEMAND(after == report.status, "tetlod_check says %d, tetlod_run %d: %s", report.status, after, said_.c_str());
   else if (after != TETLOD_ERR_MESH_DEGENERATE || mesh.sound)  // too thin for the remesher: it is not called to check
