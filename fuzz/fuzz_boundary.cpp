@@ -14,6 +14,7 @@
 #include "oracle.hpp"
 #include "prepare.hpp"
 #include "stages.hpp"
+#include "surface_distance.hpp"
 #include "surface_topology.hpp"
 
 namespace fuzz {
@@ -103,6 +104,11 @@ void check_locked(const tetlod::Surface &before, const std::vector<std::uint8_t>
   }
 }
 
+bool crosses(const tetlod::Surface &surface, tetlod::Job &job) {
+  tetlod::TreeOnDemand tree(surface);
+  return tetlod::find_crossing(surface, tree, job).first >= 0;
+}
+
 void check_decimated(const tetlod::Surface &before, const tetlod::Surface &after, const tetlod::DecimateReport &report,
                      bool crossed, tetlod::Job &job) {
   DEMAND(after.points.size() == after.scalars.size() && after.points.size() == after.origin.size(),
@@ -114,7 +120,7 @@ void check_decimated(const tetlod::Surface &before, const tetlod::Surface &after
   DEMAND(topology_of(faces_of(after.triangles)).closed, "a decimated boundary is closed");
   check_same_topology(faces_of(before.triangles), faces_of(after.triangles));
   if (crossed) return;
-  DEMAND(tetlod::find_crossing(after, job).first < 0, "decimation makes no crossing");
+  DEMAND(!crosses(after, job), "decimation makes no crossing");
   check_same_cut_topology(points_of(before.points), faces_of(before.triangles), points_of(after.points),
                           faces_of(after.triangles));
 }
@@ -147,7 +153,7 @@ double decode_field_weight(Bytes &in, const tetlod::Surface &surface) {
 void decimate(Stage &stage, const tetlod::Surface &before, const tetlod::SurfaceTopology &topology,
               const tetlod::Options &options, Bytes &in) {
   const std::vector<std::uint8_t> locked = decode_locks(in, before.points.size());
-  const bool crossed = tetlod::find_crossing(before, stage.job()).first >= 0;
+  const bool crossed = crosses(before, stage.job());
   const double field_weight = decode_field_weight(in, before);
   const double bound = in.one_in(4) ? in.fraction() * in.fraction() : 0;
   const double max_deviation = before.points.empty() ? 0 : bound * tetlod::box_of(before.points).diagonal();

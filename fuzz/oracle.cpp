@@ -12,6 +12,7 @@
 #include "geometry.hpp"
 #include "job.hpp"
 #include "mesh.hpp"
+#include "surface_distance.hpp"
 #include "surface_topology.hpp"
 
 namespace fuzz {
@@ -82,7 +83,8 @@ std::pair<std::int32_t, std::int32_t> crossing_of(const std::vector<Point> &poin
   tetlod::Job job(memory, alone);
   tetlod::Surface surface(memory);
   make_surface(points, faces, surface);
-  return tetlod::find_crossing(surface, job);
+  tetlod::TreeOnDemand tree(surface);
+  return tetlod::find_crossing(surface, tree, job);
 }
 
 Point minus(const Point &a, const Point &b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }

@@ -1,6 +1,7 @@
 #include "decimate_and_check.hpp"
 
 #include "find_crossing.hpp"
+#include "surface_distance.hpp"
 
 namespace tetlod {
 
@@ -22,13 +23,15 @@ DecimateReport decimate_and_check(Surface &surface, const SurfaceTopology &topol
     DecimateOptions careless = options;
     careless.careful = false;
     const DecimateReport report = decimate(simplified, careless);
-    if (find_crossing(simplified, job).first < 0) {
+    TreeOnDemand tree(simplified);
+    if (find_crossing(simplified, tree, job).first < 0) {
       surface = std::move(simplified);
       return report;
     }
   }
   const DecimateReport report = decimate(surface, options);
-  refuse_crossing(surface, index_base, job);
+  TreeOnDemand tree(surface);
+  refuse_crossing(surface, tree, index_base, job);
   return report;
 }
 

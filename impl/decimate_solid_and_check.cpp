@@ -35,14 +35,15 @@ bool same_topology(const SurfaceTopology &a, const SurfaceTopology &b) {
 
 /// What is wrong, where it is not closed, of the same topology, crosses itself nowhere, and none of its components lies
 /// in another's material.
-std::string check_surface_of(const OriginalSolid &original, Job &job, CoarseSolid &coarse) {
+std::string check_surface_of(const OriginalSolid &original, Job &job, CoarseSolid &coarse, TreeOnDemand &tree) {
   const TetMesh &mesh = coarse.mesh;
   make_surface({mesh.points, mesh.scalars, mesh.tets, original.mesh.fields}, mesh.boundary, job, coarse.surface);
   try {
     find_topology(coarse.surface.points, coarse.surface.triangles, job, coarse.topology);
     coarse.wants_care = !same_topology(coarse.topology, original.topology);
     if (coarse.wants_care) return "the boundary has another topology";
-    refuse_intersections(coarse.surface, coarse.topology, 0, job);
+    tree = TreeOnDemand(coarse.surface);
+    refuse_intersections(coarse.surface, coarse.topology, tree, 0, job);
     return {};
   } catch (const Error &error) {
     coarse.wants_care = error.status() == Status::mesh_intersecting || error.status() == Status::mesh_nonmanifold;
@@ -55,11 +56,13 @@ bool misses_size(const SolidOptions &options, const TetMesh &mesh) {
   return options.enough == 0 && double(mesh.tets.size()) > (1 + most_missed) * double(options.tets);
 }
 
-void check(const OriginalSolid &original, const SolidOptions &options, Job &job, CoarseSolid &coarse) {
+/// tree: becomes that of the surface, if the mesh is sound.
+void check(const OriginalSolid &original, const SolidOptions &options, Job &job, CoarseSolid &coarse,
+           TreeOnDemand &tree) {
   TetMesh &mesh = coarse.mesh;
   std::string &wrong = coarse.wrong = make_all_positive(mesh.points, {mesh.tets.data(), mesh.tets.size()}, 1, job);
   if (wrong.empty()) wrong = check_volume(mesh.points, mesh.tets, mesh.boundary, 1, job);
-  if (wrong.empty()) wrong = check_surface_of(original, job, coarse);
+  if (wrong.empty()) wrong = check_surface_of(original, job, coarse, tree);
   coarse.is_sound = wrong.empty();
   if (coarse.is_sound && misses_size(options, mesh))
     wrong = text("no edge is left to collapse at %zu tets", mesh.tets.size());
@@ -85,7 +88,8 @@ bool lower(const OriginalSolid &original, const SolidOptions &options, double le
   const Array<std::uint8_t> stay = vertices_that_stay(options, job.memory);
   lowered.deviation =
       lower_deviation(original.surface, original.tree.get(job), stay, least, most, job, lowered.mesh, lowered.origin);
-  check(original, options, job, lowered);
+  TreeOnDemand tree;
+  check(original, options, job, lowered, tree);
   const bool is_sound = lowered.is_sound;
   if (is_sound) coarse = std::move(lowered);
   return is_sound;
@@ -96,10 +100,11 @@ CoarseSolid decimate_and_check(const OriginalSolid &original, const SolidOptions
   CoarseSolid coarse(job.memory);
   coarse.reused = decimate_solid(original, options, history, job, coarse.mesh, coarse.origin);
   if (lowered > 0 && lower(original, options, 0, lowered, job, coarse)) return coarse;
-  check(original, options, job, coarse);
+  TreeOnDemand tree;
+  check(original, options, job, coarse, tree);
   if (!coarse.is_sound) return coarse;
-  coarse.deviation =
-      largest_deviation(original.surface, original.tree, coarse.surface, samples_for(options.max_deviation), job);
+  coarse.deviation = largest_deviation(original.surface, original.tree, coarse.surface, std::move(tree),
+                                       samples_for(options.max_deviation), job);
   const double far = far_off * box_of(original.surface.points).diagonal();
   if (lowered == 0 && options.max_deviation <= 0 && coarse.deviation > far)
     lower(original, options, far / 2, std::int64_t(coarse.mesh.tets.size()), job, coarse);

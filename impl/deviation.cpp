@@ -71,8 +71,10 @@ std::size_t near_spoke(const Star &star, std::size_t first, const Vec3 &p, doubl
 
 }  // namespace
 
-double largest_deviation(const Surface &a, TreeOnDemand &tree_of_a, const Surface &b, Samples samples, Job &job) {
-  const double from_a = farthest(a, TriangleTree(b.points, b.triangles, job), samples, 0, job);
+double largest_deviation(const Surface &a, TreeOnDemand &tree_of_a, const Surface &b, TreeOnDemand tree_of_b,
+                         Samples samples, Job &job) {
+  const double from_a = farthest(a, tree_of_b.get(job), samples, 0, job);
+  tree_of_b.drop();
   return farthest(b, tree_of_a.get(job), samples, from_a, job);
 }
 

@@ -15,8 +15,9 @@ enum class Samples {
 /// A limit is held at all of them; where there is none, the vertices say enough.
 inline Samples samples_for(double limit) { return limit > 0 ? Samples::between_too : Samples::vertices; }
 
-/// The largest distance from a sample of either surface to the other surface.
-double largest_deviation(const Surface &a, TreeOnDemand &tree_of_a, const Surface &b, Samples samples, Job &job);
+/// The largest distance from a sample of either surface to the other surface. tree_of_b goes when it was used.
+double largest_deviation(const Surface &a, TreeOnDemand &tree_of_a, const Surface &b, TreeOnDemand tree_of_b,
+                         Samples samples, Job &job);
 
 /// What the spokes of a star would stand for, and for each of the star's own samples the one of the original's that is
 /// nearest, so far.

@@ -4,9 +4,9 @@
 
 #include "first_culprit.hpp"
 #include "host_numbers.hpp"
-#include "kd_tree.hpp"
 #include "predicates.hpp"
 #include "status.hpp"
+#include "surface_distance.hpp"
 
 namespace tetlod {
 
@@ -33,25 +33,21 @@ std::array<long long, 3> names(const Surface &surface, std::int32_t triangle, st
 
 }  // namespace
 
-std::pair<std::int32_t, std::int32_t> find_crossing(const Surface &surface, Job &job) {
-  Array<Box> boxes(&job.memory);
-  boxes.reserve(surface.triangles.size());
-  for (const Triangle &t : surface.triangles) boxes.push_back(box_of(surface.points, t));
-  KdTree tree(job.memory);
-  tree.build(Array<Box>(boxes, &job.memory), 4, job, 1);
-  const auto none = std::int32_t(boxes.size());
+std::pair<std::int32_t, std::int32_t> find_crossing(const Surface &surface, TreeOnDemand &tree_of_it, Job &job) {
+  const TriangleTree &tree = tree_of_it.get(job);
+  const std::size_t triangles = surface.triangles.size();
+  const auto none = std::int32_t(triangles);
   const auto first_partner = [&](std::size_t t) {
     std::int32_t first = none;
-    tree.any_overlap(boxes[t], [&](std::int32_t other) {
+    tree.for_near(std::int32_t(t), [&](std::int32_t other) {
       if (other > std::int32_t(t) && other < first && cross(surface, std::int32_t(t), other)) first = other;
-      return false;
     });
     return first;
   };
   FirstCulprit culprit;
-  job.parallel.for_blocks(boxes.size(), block, [&](std::size_t begin, std::size_t end) {
+  job.parallel.for_blocks(triangles, block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end && t < culprit.index(); t++) {
-      if (t % 8 == 0) job.poll(double(t) / double(boxes.size()));
+      if (t % 8 == 0) job.poll(double(t) / double(triangles));
       if (first_partner(t) != none) culprit.report(t);
     }
   });
@@ -59,8 +55,8 @@ std::pair<std::int32_t, std::int32_t> find_crossing(const Surface &surface, Job 
   return {std::int32_t(culprit.index()), first_partner(culprit.index())};
 }
 
-void refuse_crossing(const Surface &surface, std::int32_t index_base, Job &job) {
-  const auto [a, b] = find_crossing(surface, job);
+void refuse_crossing(const Surface &surface, TreeOnDemand &tree, std::int32_t index_base, Job &job) {
+  const auto [a, b] = find_crossing(surface, tree, job);
   if (a < 0) return;
   const std::array<long long, 3> first = names(surface, a, index_base), second = names(surface, b, index_base);
   fail(Status::mesh_intersecting,

@@ -14,11 +14,8 @@ namespace {
 
 class Nesting {
  public:
-  Nesting(const Surface &surface, const SurfaceTopology &topology, Job &job)
-      : surface_(surface),
-        job_(job),
-        widest_(std::size_t(topology.components), -1, &job.memory),
-        tree_(surface.points, surface.triangles, job) {
+  Nesting(const Surface &surface, const SurfaceTopology &topology, const TriangleTree &tree, Job &job)
+      : surface_(surface), job_(job), widest_(std::size_t(topology.components), -1, &job.memory), tree_(tree) {
     find_widest(topology);
   }
 
@@ -68,14 +65,15 @@ class Nesting {
   const Surface &surface_;
   Job &job_;
   Array<std::int32_t> widest_;
-  TriangleTree tree_;
+  const TriangleTree &tree_;
 };
 
 }  // namespace
 
-void refuse_nested_solids(const Surface &surface, const SurfaceTopology &topology, std::int32_t index_base, Job &job) {
+void refuse_nested_solids(const Surface &surface, const SurfaceTopology &topology, TreeOnDemand &tree,
+                          std::int32_t index_base, Job &job) {
   if (topology.components < 2) return;
-  const std::int32_t t = Nesting(surface, topology, job).find();
+  const std::int32_t t = Nesting(surface, topology, tree.get(job), job).find();
   if (t < 0) return;
   const HostNumbers numbers = host_numbers(surface, index_base);
   const Triangle &face = surface.triangles[std::size_t(t)];
@@ -84,9 +82,10 @@ void refuse_nested_solids(const Surface &surface, const SurfaceTopology &topolog
        numbers.vertex(face[1]), numbers.vertex(face[2]));
 }
 
-void refuse_intersections(const Surface &surface, const SurfaceTopology &topology, std::int32_t index_base, Job &job) {
-  refuse_crossing(surface, index_base, job);
-  refuse_nested_solids(surface, topology, index_base, job);
+void refuse_intersections(const Surface &surface, const SurfaceTopology &topology, TreeOnDemand &tree,
+                          std::int32_t index_base, Job &job) {
+  refuse_crossing(surface, tree, index_base, job);
+  refuse_nested_solids(surface, topology, tree, index_base, job);
 }
 
 }  // namespace tetlod

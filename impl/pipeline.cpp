@@ -103,7 +103,7 @@ class Pipeline : private Beginning {
     }
     if (!coarse.is_sound && mesh_.tets.empty()) {
       if (!options_.remesh)  // who remeshes has looked at that
-        refuse_intersections(prepared_.surface(job_), prepared_.topology(job_), input_.index_base, job_);
+        refuse_intersections(prepared_.surface(job_), prepared_.topology(job_), tree(), input_.index_base, job_);
       throw Error(Status::remesh, failure_);
     }
     const bool collapsed = coarse.is_sound && (mesh_.tets.empty() || coarse.mesh.tets.size() < mesh_.tets.size());
@@ -166,10 +166,7 @@ class Pipeline : private Beginning {
 
   /// Of the original's boundary.
   TreeOnDemand &tree() {
-    if (!tree_) {
-      const Surface &surface = prepared_.surface(job_);
-      tree_.emplace(surface.points, surface.triangles);
-    }
+    if (!tree_) tree_.emplace(prepared_.surface(job_));
     return *tree_;
   }
 
@@ -279,7 +276,7 @@ class Pipeline : private Beginning {
 
   /// Too dear to be looked for when nothing is wrong. Of the original, whose vertices have names.
   void refuse_overlapping_solids() {
-    refuse_nested_solids(prepared_.surface(job_), prepared_.topology(job_), input_.index_base, job_);
+    refuse_nested_solids(prepared_.surface(job_), prepared_.topology(job_), tree(), input_.index_base, job_);
   }
 
   void decimate(double sigma) {

@@ -129,7 +129,8 @@ Prepared::Decimated Prepared::decimate(const DecimateOptions &options, std::int3
 }
 
 double Prepared::deviation(TreeOnDemand &tree, const Surface &decimated, Samples samples, Job &job) {
-  if (deviation_way_ != last_) deviation_ = largest_deviation(surface_, tree, decimated, samples, job);
+  if (deviation_way_ != last_)
+    deviation_ = largest_deviation(surface_, tree, decimated, TreeOnDemand(decimated), samples, job);
   deviation_way_ = last_;
   return deviation_;
 }

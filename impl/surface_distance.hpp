@@ -29,6 +29,14 @@ class TriangleTree {
   /// In how much material p is, by the triangles, but for one, on a ray to it: exact. Nothing where it is on one of
   /// them.
   std::optional<int> depth(const Vec3 &p, std::int32_t but = -1) const;
+  /// visit(other) for the triangles whose boxes meet that of t, t among them.
+  template <class Visit>
+  void for_near(std::int32_t t, const Visit &visit) const {
+    tree_.any_overlap(box_of(points_, triangles_[std::size_t(t)]), [&](std::int32_t other) {
+      visit(other);
+      return false;
+    });
+  }
 
  private:
   TriangleInSpace triangle(std::int32_t t) const { return {points_, triangles_[std::size_t(t)]}; }
@@ -44,7 +52,7 @@ class TriangleTree {
 class TreeOnDemand {
  public:
   TreeOnDemand() = default;
-  TreeOnDemand(Span<const Vec3> points, Span<const Triangle> triangles) : points_(points), triangles_(triangles) {}
+  explicit TreeOnDemand(const Surface &surface) : points_(surface.points), triangles_(surface.triangles) {}
 
   const TriangleTree &get(Job &job) {
     if (!tree_) {

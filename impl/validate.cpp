@@ -10,6 +10,7 @@
 #include "nested_solids.hpp"
 #include "predicates.hpp"
 #include "prepare.hpp"
+#include "surface_distance.hpp"
 #include "surface_topology.hpp"
 #include "whole_arrays.hpp"
 
@@ -279,7 +280,8 @@ Error verdict_on(const Input &input, const Options &options, Job &job) {
     make_surface(original.view, boundary.triangles, job, surface);
     SurfaceTopology topology(job.memory);
     find_topology(surface.points, surface.triangles, job, topology, host_numbers(surface, input.index_base));
-    refuse_intersections(surface, topology, input.index_base, job);
+    TreeOnDemand tree(surface);
+    refuse_intersections(surface, topology, tree, input.index_base, job);
   } catch (const Error &error) {
     if (!blames_the_mesh(error)) throw;
     return error;

@@ -43,7 +43,7 @@ class DecimateSolid : public testing::Test {
     extract_boundary(original.view(), host.job, boundary);
     make_surface(original.view(), boundary.triangles, host.job, surface);
     find_topology(surface.points, surface.triangles, host.job, topology);
-    tree = TreeOnDemand(surface.points, surface.triangles);
+    tree = TreeOnDemand(surface);
   }
 
   bool decimate(double ratio, Host &on, CoarseSolid &coarse) {
@@ -54,7 +54,7 @@ class DecimateSolid : public testing::Test {
   bool decimate(double ratio, Host &on, SolidHistory &history, CoarseSolid &coarse) {
     options.tets = std::int64_t(ratio * double(original.tets.size()));
     const MeshView view = original.view();
-    TreeOnDemand tree_there(surface.points, surface.triangles);  // of memory of `on`
+    TreeOnDemand tree_there(surface);  // of memory of `on`
     coarse =
         decimate_solid_and_check({view, boundary, surface, topology, tree_there}, options, lowered, history, on.job);
     failure = coarse.wrong;

@@ -69,7 +69,7 @@ class FirstAttempt : public Beginning {
     solid.tets = sizes.tets;
     SolidHistory none(job_.memory);
     const Surface &surface = prepared_.surface(job_);
-    TreeOnDemand tree(surface.points, surface.triangles);
+    TreeOnDemand tree(surface);
     const OriginalSolid original{original_.view, boundary_, surface, prepared_.topology(job_), tree};
     TetMesh mesh = decimate_solid_and_check(original, solid, sizes.lowered, none, job_).mesh;
     RefineOptions refining;

@@ -33,7 +33,7 @@ TEST_F(Decimate, WhatCrossesAfterwardsIsDoneAgainWithCare) {
 
 TEST_F(Decimate, DeviationStaysWithinItsLimit) {
   start_with(random_blob(host.memory, 12, 7));
-  TreeOnDemand tree(original.points, original.triangles);
+  TreeOnDemand tree(original);
   for (double field_weight : {0.0, 0.1}) {
     DecimateOptions options{0.05, 0.1};
     options.field_weight = {field_weight};
@@ -42,7 +42,8 @@ TEST_F(Decimate, DeviationStaysWithinItsLimit) {
       options.max_deviation = limit;
       decimate(options);
       expect_sound();
-      const double deviation = largest_deviation(original, tree, result, samples_for(limit), host.job);
+      const double deviation =
+          largest_deviation(original, tree, result, TreeOnDemand(result), samples_for(limit), host.job);
       EXPECT_NEAR(deviation, brute_deviation(limit > 0), 1e-12);
       EXPECT_TRUE(limit == 0 || deviation <= limit) << deviation << " beyond " << limit;
       EXPECT_GE(report.edges_out, edges) << "a tighter limit keeps no less";

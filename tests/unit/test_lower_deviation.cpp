@@ -132,7 +132,7 @@ TEST_F(LowerDeviation, AMiddleThatIsOffComesNearerWhereThereIsRoomForIt) {
     Surface lowered(host.memory);
     boundary_of(mesh);
     make_surface({mesh.points, mesh.scalars, mesh.tets, 1}, mesh.boundary, host.job, lowered);
-    return largest_deviation(surface, tree, lowered, Samples::between_too, host.job);
+    return largest_deviation(surface, tree, lowered, TreeOnDemand(lowered), Samples::between_too, host.job);
   };
   const double before = distance_with(0), after = distance_with(20);
   EXPECT_GT(before, 0.05);
@@ -153,7 +153,8 @@ TEST_F(LowerDeviation, LowersWhatCollapsesLeft) {
     EXPECT_LE(with.deviation, without.deviation) << ratio;
     all *= with.deviation / without.deviation;
     EXPECT_LE(with.mesh.tets.size(), std::size_t(lowered));
-    const double measured = largest_deviation(surface, tree, with.surface, Samples::vertices, host.job);
+    const double measured =
+        largest_deviation(surface, tree, with.surface, TreeOnDemand(with.surface), Samples::vertices, host.job);
     EXPECT_NEAR(with.deviation, measured, 1e-12 * measured);
     EXPECT_EQ(with.origin.size(), with.mesh.points.size());
     for (std::size_t v = 0; v < with.origin.size(); v++) {
@@ -177,7 +178,8 @@ TEST_F(LowerDeviation, LowersWhatStandsOutInAnyCase) {
     decimate_solid({view, boundary, surface, topology, tree}, options, history, host.job, without.mesh, without.origin);
     make_surface({without.mesh.points, without.mesh.scalars, without.mesh.tets, 1}, without.mesh.boundary, host.job,
                  without.surface);
-    const double before = largest_deviation(surface, tree, without.surface, Samples::vertices, host.job);
+    const double before =
+        largest_deviation(surface, tree, without.surface, TreeOnDemand(without.surface), Samples::vertices, host.job);
     expect_sound(with);
     EXPECT_EQ(with.mesh.tets.size(), without.mesh.tets.size());
     if (before <= far)

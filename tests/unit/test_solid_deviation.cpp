@@ -19,7 +19,8 @@ class SolidDeviation : public DecimateSolid {
   }
 
   double deviation_of(const CoarseSolid &coarse) {
-    return largest_deviation(surface, tree, coarse.surface, Samples::between_too, host.job);
+    return largest_deviation(surface, tree, coarse.surface, TreeOnDemand(coarse.surface), Samples::between_too,
+                             host.job);
   }
 };
 

@@ -13,6 +13,7 @@
 #include "nested_solids.hpp"
 #include "remesh_surfaces.hpp"
 #include "status.hpp"
+#include "surface_distance.hpp"
 #include "surface_topology.hpp"
 
 namespace tetlod {
@@ -263,27 +264,33 @@ TEST_F(Topology, ManyWedgesAroundAnEdge) {
 
 // A surface that crosses itself
 
+std::pair<std::int32_t, std::int32_t> crossing_of(const Surface &surface, Job &job) {
+  TreeOnDemand tree(surface);
+  return find_crossing(surface, tree, job);
+}
+
 TEST_F(Topology, CrossingsAreFound) {
   const std::pair<std::int32_t, std::int32_t> none(-1, -1);
-  EXPECT_EQ(find_crossing(random_blob(host.memory, 8, 1), host.job), none);
-  EXPECT_EQ(find_crossing(two_cubes(host.memory, 3, Vec3(1, 1, 0)), host.job), none);
+  EXPECT_EQ(crossing_of(random_blob(host.memory, 8, 1), host.job), none);
+  EXPECT_EQ(crossing_of(two_cubes(host.memory, 3, Vec3(1, 1, 0)), host.job), none);
   for (double shift : {0.3, 1.9, 2.1}) {  // two unit spheres, the last two apart
     Surface surface = sphere(host.memory, 6);
     append(surface, sphere(host.memory, 5, 1, Vec3(shift, 0.1, 0.1)));
     complete(surface, [](const Vec3 &) { return 0.0; });
+    TreeOnDemand tree(surface);
     const auto expected = crossings(surface, host.memory);
-    const auto found = find_crossing(surface, host.job);
+    const auto found = crossing_of(surface, host.job);
     EXPECT_EQ(expected.empty(), shift > 2);
     if (expected.empty()) {
       EXPECT_EQ(found, none);
-      refuse_crossing(surface, 0, host.job);
+      refuse_crossing(surface, tree, 0, host.job);
       continue;
     }
     const auto [low, high] = std::minmax({found.first, found.second});
     EXPECT_EQ(std::count(expected.begin(), expected.end(), std::make_pair(low, high)), 1);
     Host two(2);
-    EXPECT_EQ(find_crossing(surface, two.job), found);
-    EXPECT_THROW(refuse_crossing(surface, 0, host.job), Error);
+    EXPECT_EQ(crossing_of(surface, two.job), found);
+    EXPECT_THROW(refuse_crossing(surface, tree, 0, host.job), Error);
   }
 }
 
@@ -292,8 +299,9 @@ TEST_F(Topology, SolidsInSolidsAreRefused) {
   const auto nested = [&](Surface surface) {
     complete(surface, [](const Vec3 &) { return 0.0; });
     find(surface);
+    TreeOnDemand tree(surface);
     try {
-      refuse_nested_solids(surface, topology, 0, host.job);
+      refuse_nested_solids(surface, topology, tree, 0, host.job);
       return false;
     } catch (const Error &error) {
       EXPECT_EQ(error.status(), Status::mesh_intersecting);
@@ -329,7 +337,8 @@ TEST_F(Topology, ASolidInASolidIsFoundAmongMany) {
     find(of);
     EXPECT_GE(topology.components, 2 * n * n * n);
     try {
-      refuse_nested_solids(of, topology, 0, host.job);
+      TreeOnDemand tree(of);
+      refuse_nested_solids(of, topology, tree, 0, host.job);
       return Status::ok;
     } catch (const Error &error) {
       return error.status();
