@@ -82,7 +82,7 @@ enum {
   TETLOD_ERR_MESH_EMPTY = 30,        /* no points, no tets, or none left after repair */
   TETLOD_ERR_MESH_INDEX = 31,        /* a tet names a vertex that the mesh does not have */
   TETLOD_ERR_MESH_NONFINITE = 32,    /* NaN or infinity in a coordinate or value */
-  TETLOD_ERR_MESH_DEGENERATE = 33,   /* no volume, an extent of 0, or what a policy refuses */
+  TETLOD_ERR_MESH_DEGENERATE = 33,   /* no volume, also as doubles round, an extent of 0, or what a policy refuses */
   TETLOD_ERR_MESH_NONMANIFOLD = 34,  /* a face with more than two tets */
   TETLOD_ERR_MESH_INTERSECTING = 35, /* the boundary crosses or touches itself, or tets overlap */
   TETLOD_ERR_MESH_PARTITION = 36,    /* reserved for partitioned meshes */

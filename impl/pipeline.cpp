@@ -17,6 +17,7 @@
 #include "nested_solids.hpp"
 #include "reconstruct_field.hpp"
 #include "refine.hpp"
+#include "scale_back.hpp"
 #include "status.hpp"
 #include "surface_distance.hpp"
 #include "surface_topology.hpp"
@@ -339,8 +340,7 @@ class Pipeline : private Beginning {
   }
 
   void finish() {
-    if (original_.exponent)
-      for (Vec3 &p : mesh_.points) p = times_power_of_two(p, original_.exponent);
+    scale_back(original_, job_, mesh_);
     report_.points_out = std::int64_t(mesh_.points.size());
     report_.tets_out = std::int64_t(mesh_.tets.size());
   }

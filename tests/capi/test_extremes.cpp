@@ -1,5 +1,6 @@
 // Values at the ends of doubles, and tets that doubles see the other way round.
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -128,6 +129,33 @@ double sign_in_doubles(const std::vector<double> &xyz, const std::array<int, 4> 
       d[k][i] = xyz[3 * std::size_t(tet[k + 1]) + i] - xyz[3 * std::size_t(tet[0]) + i];
   return d[0][0] * (d[1][1] * d[2][2] - d[1][2] * d[2][1]) - d[0][1] * (d[1][0] * d[2][2] - d[1][2] * d[2][0]) +
          d[0][2] * (d[1][0] * d[2][1] - d[1][1] * d[2][0]);
+}
+
+/// Where coordinates have few bits left, a result is sound as it is rounded, or there is none.
+TEST_F(Extremes, NothingIsRoundedFlatNextToZero) {
+  constexpr double least = std::numeric_limits<double>::denorm_min();
+  int refused = 0;
+  for (double scale : {1e-300, 1e12 * least, 1e3 * least, 4 * least})
+    for (int preset : {TETLOD_PRESET_PAPER, TETLOD_PRESET_FAST, TETLOD_PRESET_ACCURATE}) {
+      cube = Cube(4);
+      for (std::size_t v = 0; v < cube.values.size(); v++) cube.values[v] = steep(v);
+      for (double &x : cube.xyz) x *= scale;
+      submit(context.get(), cube);
+      ASSERT_EQ(tetlod_set_preset(context.get(), preset), TETLOD_OK);
+      const tetlod_status status = tetlod_run(context.get());
+      refused += status == TETLOD_ERR_MESH_DEGENERATE;
+      EXPECT_TRUE(status == TETLOD_OK || (scale < 1e-310 && status == TETLOD_ERR_MESH_DEGENERATE))
+          << scale << ' ' << status << ' ' << message_of(context.get());
+      if (status != TETLOD_OK) continue;
+      std::vector<double> xyz = reals(tetlod_view_points);
+      for (double &x : xyz) x /= scale;
+      tetlod_array tets{};
+      tets.struct_size = sizeof tets;
+      ASSERT_EQ(tetlod_view_tets(context.get(), &tets), TETLOD_OK);
+      const auto *const corners = static_cast<const std::array<int, 4> *>(tets.data);
+      for (std::int64_t t = 0; t < tets.tuples; t++) EXPECT_GT(sign_in_doubles(xyz, corners[t]), 0) << scale;
+    }
+  EXPECT_GT(refused, 0);
 }
 
 /// On a side of a cube that is turned lies a tet of 3e-35, exactly; doubles see it of -9e-19. Its corners are kept.
