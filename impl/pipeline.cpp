@@ -60,9 +60,12 @@ class Pipeline : private Beginning {
 
   /// Where the bound does not hold because the boundary is too coarse, one with more triangles follows.
   void run_to_target(Worker &worker) {
-    for (double ratio = 2 * ratio_of(options_); !meet_budget(worker); ratio *= 2) {
+    for (double ratio = ratio_of(options_); !meet_budget(worker);) {
       if (is_whole(budget_, options_, report_)) fail_bound();
-      budget_ = has_grown() ? larger_budget(1, 1, report_) : larger_budget(ratio, budget_.sigma, report_);
+      do {  // with fewer tets than edges collapse to it would be the same
+        ratio *= 2;
+        budget_ = has_grown() ? larger_budget(1, 1, report_) : larger_budget(ratio, budget_.sigma, report_);
+      } while (budget_.tets < stuck_at_);
     }
   }
 
@@ -93,7 +96,7 @@ class Pipeline : private Beginning {
     if (collapses_edges(options_, report_)) {
       bool reached = collapse_edges(false, coarse);
       ladder_ = coarse.is_sound ? Ladder::first_rung : Ladder::whole;
-      if (!reached && options_.remesh) reached = remesh_to_target(worker);
+      if (!reached && may_remesh(coarse)) reached = remesh_to_target(worker);
       if (!reached && coarse.is_sound && options_.max_error == 0) collapse_edges(true, coarse);
     } else if (!remesh_to_target(worker)) {
       if (options_.clean_edges == 0)
@@ -108,10 +111,14 @@ class Pipeline : private Beginning {
       throw Error(Status::remesh, failure_);
     }
     const bool collapsed = coarse.is_sound && (mesh_.tets.empty() || coarse.mesh.tets.size() < mesh_.tets.size());
+    if (collapsed && !coarse.wrong.empty()) stuck_at_ = std::int64_t(coarse.mesh.tets.size());
     report_.reused_collapses = collapsed ? coarse.reused : 0;
     if (collapsed) take_over(std::move(coarse));
     return collapsed;
   }
+
+  /// Where collapses stopped before the size once, and left fewer tets than remeshing, they do so for larger budgets.
+  bool may_remesh(const CoarseSolid &coarse) const { return options_.remesh && (stuck_at_ == 0 || !coarse.is_sound); }
 
   /// Further attempts of a small mesh; the best of all is kept.
   void weigh_planes_otherwise() {
@@ -353,7 +360,8 @@ class Pipeline : private Beginning {
   }
 
   TetMesh &mesh_;
-  double score_ = 0;  // of the last refinement
+  std::int64_t stuck_at_ = 0;  // tets, where no edge was left to collapse; 0: the size was reached so far
+  double score_ = 0;           // of the last refinement
   Ladder ladder_ = Ladder::whole;
   std::string failure_;  // of the last remeshing, or, without one, of the first collapses
   std::optional<TreeOnDemand> tree_;

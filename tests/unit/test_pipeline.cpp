@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <filesystem>
 
 #include "remesh_attempts.hpp"
 #include "whole_run.hpp"
@@ -162,6 +163,31 @@ TEST_F(WholeRun, ABoundaryThatCannotBeFilledIsDecimatedLess) {
   EXPECT_THROW(run(input_of(original), options, failing, host.job, again), Error);
   EXPECT_EQ(again.report.boundary_retries, 3);
   ::unlink(file.c_str());
+  ::unsetenv("FAKE_REMESH_FAILURES");
+  ::unsetenv("FAKE_REMESH");
+}
+
+/// Edges stop collapsing long before the size: what a bound needs beyond that is no reason to ask for a way once more.
+TEST_F(WholeRun, WhereTetGenFindsNoWayABoundAsksForItOnce) {
+  Mesh original = random_solid(6, 0.7, 1);
+  transform(original, [](const Vec3 &p) { return Vec3(10 * p.x, p.y, 10 * p.z); });
+  for (std::size_t v = 0; v < original.scalars.size(); v++) original.scalars[v] = double(v * 7919 % 101);
+  options.target_ratio = 0.02;
+  const std::string file = testing::TempDir() + "tetlod_failures_" + std::to_string(::getpid());
+  ::setenv("FAKE_REMESH_FAILURES", file.c_str(), 1);
+  ::setenv("FAKE_REMESH", "1000000", 1);
+  const auto failures = [&](double bound) {
+    options.max_error = bound;
+    Worker failing(TETLOD_FAKE_REMESH);
+    Result by_collapses(host.memory);
+    run(input_of(original), options, failing, host.job, by_collapses);
+    const auto count = std::filesystem::file_size(file);
+    std::filesystem::remove(file);
+    return count;
+  };
+  const auto loose = failures(1);
+  EXPECT_GT(loose, 0u);
+  EXPECT_EQ(failures(0.1), loose);
   ::unsetenv("FAKE_REMESH_FAILURES");
   ::unsetenv("FAKE_REMESH");
 }
