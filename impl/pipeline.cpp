@@ -160,7 +160,7 @@ class Pipeline : private Beginning {
     // With further attempts it would save the first alone, and take memory from the others.
     SolidHistory none(job_.memory);
     SolidHistory &history = weights_of_attempts(budget_, options_, report_).empty()
-                                ? prepared_.history(options.holds_bound, options.hasty, options.warm_start > 0, job_)
+                                ? prepared_.history({options.holds_bound, options.hasty, options.warm_start > 0}, job_)
                                 : none;
     options.one_of_many = report_.reused_tets > 0 && history.is_repeated();
     CoarseSolid coarse = collapse(options, history);

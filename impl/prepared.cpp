@@ -135,8 +135,8 @@ double Prepared::deviation(TreeOnDemand &tree, const Surface &decimated, Samples
   return deviation_;
 }
 
-SolidHistory &Prepared::history(bool holds_bound, bool hasty, bool keeps_earlier, Job &job) {
-  history_.begin(original.view, holds_bound, hasty, keeps_earlier, job);
+SolidHistory &Prepared::history(const CollapseWay &way, Job &job) {
+  history_.begin(original.view, way, job);
   return history_;
 }
 

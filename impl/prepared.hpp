@@ -62,9 +62,9 @@ class Prepared {
   /// Between surface(), whose tree it is, and what decimate() made of it last, at these samples of both.
   double deviation(TreeOnDemand &tree, const Surface &decimated, Samples samples, Job &job);
 
-  /// Of the original while its edges collapsed, for a bound or not, with the values that it has now, or, if asked for,
-  /// with earlier ones.
-  SolidHistory &history(bool holds_bound, bool hasty, bool keeps_earlier, Job &job);
+  /// Of the original while its edges collapsed that way, with the values that it has now, or, if that keeps them, with
+  /// earlier ones.
+  SolidHistory &history(const CollapseWay &way, Job &job);
 
   /// Of each original vertex, what culling with these found of it at the last decimated surface.
   Span<std::uint8_t> verdicts(double least_distance, std::int64_t leaf, Memory &memory);

@@ -56,18 +56,15 @@ void SolidProgress::close_gaps(Span<const std::int32_t> number, Job &job) {
   std::iota(into.begin(), into.end(), 0);
 }
 
-void SolidHistory::begin(const MeshView &original, bool holds_bound, bool hasty, bool keeps_earlier, Job &job) {
+void SolidHistory::begin(const MeshView &original, const CollapseWay &way, Job &job) {
   Fingerprint values;
   values.add(std::uint64_t(original.fields));
   for (std::size_t k = 0; k < original.fields; k++) values.add(original.scales.weighted[k]);
   values.add(original.scalars, job);
   now_ = values;
   repeated_ = !is_earlier();
-  const bool same_way = holds_bound == holds_bound_ && hasty == hasty_ && keeps_earlier == keeps_earlier_;
-  if (!same_way || (is_earlier() && !keeps_earlier)) forget_earlier(job.memory);
-  holds_bound_ = holds_bound;
-  hasty_ = hasty;
-  keeps_earlier_ = keeps_earlier;
+  if (!(way == way_) || (is_earlier() && !way.keeps_earlier)) forget_earlier(job.memory);
+  way_ = way;
 }
 
 void SolidHistory::forget(Memory &memory) {

@@ -75,14 +75,24 @@ struct SolidState {
   SolidProgress progress;
 };
 
+/// What states are of, beside a mesh and its values.
+struct CollapseWay {
+  bool holds_bound = false, hasty = false;  ///< as in SolidOptions
+  bool keeps_earlier = false;               ///< states of earlier values, for warm starts
+
+  bool operator==(const CollapseWay &o) const {
+    return holds_bound == o.holds_bound && hasty == o.hasty && keeps_earlier == o.keeps_earlier;
+  }
+};
+
 /// Of one mesh and its values, each state coarser than the one before.
 class SolidHistory {
  public:
   explicit SolidHistory(Memory &memory) : states_(Array<SolidState<1>>(&memory)) {}
 
   /// Forgets the states, unless they are of the same values, or those of earlier ones are to be kept; and of another
-  /// way: for a bound, in haste, or as earlier ones are kept or not.
-  void begin(const MeshView &original, bool holds_bound, bool hasty, bool keeps_earlier, Job &job);
+  /// way.
+  void begin(const MeshView &original, const CollapseWay &way, Job &job);
   bool is_earlier() const { return !(now_ == values_); }
   /// Whether it began with these values before.
   bool is_repeated() const { return repeated_; }
@@ -118,7 +128,8 @@ class SolidHistory {
   }
 
  private:
-  bool holds_bound_ = false, hasty_ = false, keeps_earlier_ = false, repeated_ = false;
+  CollapseWay way_;
+  bool repeated_ = false;
   Fingerprint values_, now_;
   double usual_cost_ = 0;
   std::int64_t tets_of_cost_ = 0;

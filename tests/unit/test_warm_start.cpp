@@ -25,7 +25,7 @@ class WarmStart : public DecimateSolid {
   std::int64_t go_on_with(const Field &field, double ratio, Host &on, SolidHistory &history, CoarseSolid &coarse) {
     set_scalars(original, field);
     start_with(original);
-    history.begin(original.view(), false, false, true, on.job);
+    history.begin(original.view(), {false, false, true}, on.job);
     EXPECT_TRUE(decimate(ratio, on, history, coarse)) << failure;
     return coarse.reused;
   }
@@ -111,7 +111,7 @@ TEST_F(WarmStart, BeginsWhereASlowFrontLeftTheSolid) {
     Host on(threads);
     SolidHistory history(on.memory);
     CoarseSolid first(on.memory);
-    history.begin(original.view(), false, false, true, on.job);
+    history.begin(original.view(), {false, false, true}, on.job);
     ASSERT_TRUE(decimate(0.1, on, history, first));
     const std::size_t near = history.states<1>(on.memory).back().remains.tets.size();
     EXPECT_LT(near, std::size_t(2 * options.tets)) << "little is left to do";
@@ -136,7 +136,7 @@ TEST_F(WarmStart, OtherSizesOfTheSameValuesHaveTheirOwnBytes) {
   for (bool hasty : {false, true}) {
     options.hasty = hasty;
     SolidHistory history(host.memory);
-    history.begin(original.view(), false, hasty, true, host.job);
+    history.begin(original.view(), {false, hasty, true}, host.job);
     for (double ratio :
          {0.1, 0.03, 0.06, 0.2, 0.01, 0.05, 0.11, 0.12, 0.13, 0.14, 0.15, 0.02, 0.022, 0.024, 0.026, 0.028}) {
       CoarseSolid next(host.memory), alone(host.memory);
@@ -156,7 +156,7 @@ TEST_F(WarmStart, BeginsAnewWhereTheValuesAreMuchSmoother) {
   start_with(rough);
   SolidHistory history(host.memory);
   CoarseSolid first(host.memory), next(host.memory), alone(host.memory);
-  history.begin(original.view(), false, false, true, host.job);
+  history.begin(original.view(), {false, false, true}, host.job);
   ASSERT_TRUE(decimate(0.1, host, history, first)) << failure;
   EXPECT_EQ(go_on_with([](const Vec3 &p) { return front(p, 0.6); }, 0.1, host, history, next), 0);
   ASSERT_TRUE(decimate(0.1, host, alone));
@@ -170,7 +170,7 @@ TEST_F(WarmStart, TakesNoOtherMemory) {
   {
     SolidHistory history(host.memory);
     CoarseSolid first(host.memory), next(host.memory);
-    history.begin(original.view(), false, false, true, host.job);
+    history.begin(original.view(), {false, false, true}, host.job);
     EXPECT_NO_THROW(decimate(0.1, host, history, first));
     EXPECT_NO_THROW(go_on_with([](const Vec3 &p) { return front(p, 0.601); }, 0.1, host, history, next));
   }
@@ -181,7 +181,7 @@ TEST_F(WarmStart, BeginsAnewWhereTheValuesAreOthers) {
   start_with_front(12, 0.6);
   SolidHistory history(host.memory);
   CoarseSolid first(host.memory), next(host.memory), alone(host.memory);
-  history.begin(original.view(), false, false, true, host.job);
+  history.begin(original.view(), {false, false, true}, host.job);
   ASSERT_TRUE(decimate(0.1, host, history, first));
   EXPECT_EQ(go_on_with(waves, 0.1, host, history, next), 0);
   ASSERT_TRUE(decimate(0.1, host, alone));
