@@ -65,7 +65,7 @@ class Pipeline : private Beginning {
       do {  // with fewer tets than edges collapse to it would be the same
         ratio *= 2;
         budget_ = has_grown() ? larger_budget(1, 1, report_) : larger_budget(ratio, budget_.sigma, report_);
-      } while (budget_.tets < stuck_at_);
+      } while (budget_.tets < stuck_at_ && ratio < 1);
     }
   }
 
