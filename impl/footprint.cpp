@@ -29,6 +29,8 @@ constexpr double bytes_a_solid_tet = 67, bytes_a_solid_point = 54, bytes_a_solid
 constexpr double bytes_a_limited_triangle = 240;
 // Of a run with a target: neighbours, frames or normal equations, and room to grow; of the original's boundary.
 constexpr double bytes_a_refined_tet = 164, bytes_a_refined_triangle = 171, bytes_a_probe = sizeof(Probe<1>) + 8;
+// Where vertices come and go in rounds, and arrays grow; a result aside, in arrays that grew.
+constexpr double rounds_a_refined_tet = 50, grown = 3;
 // Of these for each field more that steers.
 constexpr double values_a_refined_tet = 4, values_a_solid_point = 8;
 // Of a field: original vertices are held by many tets, the centroids of cells by one.
@@ -76,9 +78,11 @@ double bytes_of_fields(const Outlook &outlook, const Input &input) {
 
 double bytes_of_refining(const Outlook &outlook) {
   if (!(outlook.probes > 0)) return 0;
-  return (bytes_a_refined_tet + values_a_refined_tet * more_values(outlook)) * outlook.tets +
+  const double of_rounds = outlook.has_rounds ? rounds_a_refined_tet : 0;
+  return (bytes_a_refined_tet + of_rounds + values_a_refined_tet * more_values(outlook)) * outlook.tets +
          (bytes_a_probe + more_values(outlook)) * outlook.probes +
-         bytes_a_refined_triangle * outlook.boundary_triangles + outlook.results_aside * bytes_of_result(outlook);
+         bytes_a_refined_triangle * outlook.boundary_triangles +
+         outlook.results_aside * grown * bytes_of_result(outlook);
 }
 
 /// Largest distance of the values of some vertices from the linear function that fits them best.
@@ -172,6 +176,7 @@ std::size_t bytes_to_refine(const MeshView &original, std::int64_t tets, int rou
   Outlook of;
   of.tets = double(tets);
   of.fields = double(original.fields);
+  of.has_rounds = rounds > 0;
   of.probes = double(expected_probes(original, enough_probes(of.tets, rounds, true)));
   return std::size_t(bytes_of_refining(of));
 }
@@ -198,7 +203,9 @@ Outlook outlook_of(const Original &original, const Boundary &boundary, Span<cons
   of.tets = std::max(double(budget.tets), tets_for_bound(original.view, options.max_error * original.range, job));
   of.points = of.tets / tets_a_point;
   const double first = std::max(double(budget.tets), std::min(of.tets, double(budget.enough)));
-  of.probes = double(expected_probes(original.view, enough_probes(first, rounds_of(options, report), true)));
+  const int rounds = rounds_of(options, report);
+  of.has_rounds = rounds > 0;
+  of.probes = double(expected_probes(original.view, enough_probes(first, rounds, true)));
   of.results_aside = weights_of_attempts(budget, options, report).empty() ? 0 : 1;
   return of;
 }

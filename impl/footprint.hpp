@@ -16,6 +16,7 @@ struct Outlook {
   double solid_tets = 0, solid_points = 0;  ///< of the original, where its edges collapse; else 0
   double fields = 1;                        ///< that steer
   bool limits_deviation = false;
+  bool has_rounds = false;   ///< of refine()
   double results_aside = 0;  ///< of attempts, while another is refined
 };
 

@@ -124,18 +124,23 @@ class Pipeline : private Beginning {
   void weigh_planes_otherwise() {
     Attempt best{std::move(mesh_), report_, score_};
     for (double planes : weights_of_attempts(budget_, options_, report_)) {
-      SolidOptions options = collapse_options();
-      options.planes = planes;
-      SolidHistory none(job_.memory);
-      CoarseSolid coarse = collapse(options, none);
-      if (!coarse.wrong.empty()) continue;
-      take_over(std::move(coarse));
+      if (!collapse_otherwise(planes)) continue;
       refine(true);
       if (score_ < best.score) best = {std::move(mesh_), report_, score_};
     }
     mesh_ = std::move(best.mesh);
     best.report.seconds = report_.seconds;
     report_ = best.report;
+  }
+
+  bool collapse_otherwise(double planes) {
+    SolidOptions options = collapse_options();
+    options.planes = planes;
+    SolidHistory none(job_.memory);
+    CoarseSolid coarse = collapse(options, none);
+    const bool is_of_the_size = coarse.wrong.empty();
+    if (is_of_the_size) take_over(std::move(coarse));
+    return is_of_the_size;
   }
 
   /// False: to too many tets, or, as TetGen finds no way, to none.

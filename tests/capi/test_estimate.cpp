@@ -7,14 +7,14 @@ namespace {
 
 using namespace tetlod_test;
 
-/// Estimates and runs. most: what the estimate may be of the peak.
-void expect_estimate(tetlod_context *context, const std::string &what, double most = 1.5) {
+/// Estimates and runs. most: what the estimate may be of the peak; and the peak of it.
+void expect_estimate(tetlod_context *context, const std::string &what, double most = 1.5, double most_of_it = 1.5) {
   std::uint64_t estimate = 0;
   ASSERT_EQ(tetlod_estimate_memory(context, &estimate), TETLOD_OK) << message_of(context);
   ASSERT_EQ(tetlod_run(context), TETLOD_OK) << message_of(context);
   const double peak = double(report_of(context).peak_bytes);
   EXPECT_LT(double(estimate), most * peak) << what;
-  EXPECT_GT(1.5 * double(estimate), peak) << what;
+  EXPECT_GT(most_of_it * double(estimate), peak) << what;
 }
 
 TEST(EstimateMemory, IsWithinAFactorOfOneAndAHalf) {
@@ -55,7 +55,7 @@ TEST(EstimateMemory, KnowsTargetsBoundsAndFields) {
       }
 }
 
-/// With further attempts, for accuracy.
+/// With further attempts, and rounds, for accuracy: where much is kept, what they take decides.
 TEST(EstimateMemory, KnowsSmallMeshes) {
   for (int n : {8, 15, 17})
     for (double ratio : {0.01, 0.1, 0.5, 0.9}) {
@@ -63,7 +63,7 @@ TEST(EstimateMemory, KnowsSmallMeshes) {
       const Context context = make_context();
       submit(context.get(), cube);
       ASSERT_EQ(tetlod_set_real(context.get(), TETLOD_OPT_TARGET_RATIO, ratio), TETLOD_OK);
-      expect_estimate(context.get(), std::to_string(n) + ", ratio " + std::to_string(ratio));
+      expect_estimate(context.get(), std::to_string(n) + ", ratio " + std::to_string(ratio), 1.5, 1.25);
     }
 }
 
