@@ -88,7 +88,7 @@ constexpr StatusText status_texts[] = {
     {TETLOD_ERR_MESH_EMPTY, "the mesh has no points or no tets"},
     {TETLOD_ERR_MESH_INDEX, "a tet names a vertex that the mesh does not have"},
     {TETLOD_ERR_MESH_NONFINITE, "a coordinate or value is NaN or infinite"},
-    {TETLOD_ERR_MESH_DEGENERATE, "the mesh is flat, or has a defect that is not repaired"},
+    {TETLOD_ERR_MESH_DEGENERATE, "the mesh is flat, too small for doubles, or has a defect that is not repaired"},
     {TETLOD_ERR_MESH_NONMANIFOLD, "a face of the mesh has more than two tets"},
     {TETLOD_ERR_MESH_INTERSECTING, "the mesh crosses or overlaps itself"},
     {TETLOD_ERR_MESH_PARTITION, "the partition of the mesh makes no sense"},

@@ -62,7 +62,7 @@ class Pipeline : private Beginning {
   void run_to_target(Worker &worker) {
     for (double ratio = ratio_of(options_); !meet_budget(worker);) {
       if (is_whole(budget_, options_, report_)) fail_bound();
-      do {  // with fewer tets than edges collapse to it would be the same
+      do {  // with fewer tets than edges collapse to it would hardly be another one
         ratio *= 2;
         budget_ = has_grown() ? larger_budget(1, 1, report_) : larger_budget(ratio, budget_.sigma, report_);
       } while (budget_.tets < stuck_at_ && ratio < 1);
@@ -117,7 +117,8 @@ class Pipeline : private Beginning {
     return collapsed;
   }
 
-  /// Where collapses stopped before the size once, and left fewer tets than remeshing, they do so for larger budgets.
+  /// Where collapses stopped before the size once, and remeshing left more tets, or found no way: it takes seconds, and
+  /// hardly ever betters that for a larger budget.
   bool may_remesh(const CoarseSolid &coarse) const { return options_.remesh && (stuck_at_ == 0 || !coarse.is_sound); }
 
   /// Further attempts of a small mesh; the best of all is kept.

@@ -6,8 +6,8 @@
 
 namespace tetlod {
 
-/// Next to zero, and beyond the largest double, that rounds, and what was a sound mesh may be none then: throws
-/// Status::mesh_degenerate.
+/// Next to zero, and beyond the largest double, that rounds. By more than doubles of the mesh's size are rounded, or so
+/// that a tet has no volume: throws Status::mesh_degenerate.
 void scale_back(const Original &original, Job &job, TetMesh &mesh);
 
 }  // namespace tetlod

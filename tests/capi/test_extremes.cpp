@@ -131,7 +131,7 @@ double sign_in_doubles(const std::vector<double> &xyz, const std::array<int, 4> 
          d[0][2] * (d[1][0] * d[2][1] - d[1][1] * d[2][0]);
 }
 
-/// Where coordinates have few bits left, a result is sound as it is rounded, or there is none.
+/// Where coordinates have few bits left, a result is what it is said to be as it is rounded, or there is none.
 TEST_F(Extremes, NothingIsRoundedFlatNextToZero) {
   constexpr double least = std::numeric_limits<double>::denorm_min();
   int refused = 0;

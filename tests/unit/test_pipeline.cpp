@@ -168,6 +168,7 @@ TEST_F(WholeRun, ABoundaryThatCannotBeFilledIsDecimatedLess) {
 }
 
 /// Edges stop collapsing long before the size: what a bound needs beyond that is no reason to ask for a way once more.
+/// (A tight bound asked three times before.)
 TEST_F(WholeRun, WhereTetGenFindsNoWayABoundAsksForItOnce) {
   Mesh original = random_solid(6, 0.7, 1);
   transform(original, [](const Vec3 &p) { return Vec3(10 * p.x, p.y, 10 * p.z); });
