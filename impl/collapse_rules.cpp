@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "kd_tree.hpp"
+
 namespace tetlod {
 
 namespace {
@@ -57,6 +59,14 @@ bool pinches_ring(const Star &star) {
     for (std::size_t j = 0; j < i; j++)
       if (star.ring_id[i] == star.ring_id[j]) return true;
   return false;
+}
+
+bool strays(const Star &star, const Vec3 &end, const Vec3 &other_end, double most) {
+  Box around;
+  around.add(end);
+  around.add(other_end);
+  for (const Vec3 &p : star.ring) around.add(p);
+  return distance2(around, star.centre) > most * most * length2(around.high - around.low);
 }
 
 bool turns_too_far(const Star &star) {

@@ -45,6 +45,9 @@ struct Star {
 /// The ring passes twice through one point of the uncut surface: two edges of the star would be one. The link
 /// condition, where the surface is not cut.
 bool pinches_ring(const Star &star);
+/// It lies out of the box of all that is around the edge, by more than this part of the box's diagonal: where normals
+/// nearly cancel out, as at the rim of a plate, a place that keeps the volume may be far away.
+bool strays(const Star &star, const Vec3 &end, const Vec3 &other_end, double most);
 /// A triangle's normal turns further than is likely on a smooth surface, or flips.
 bool turns_too_far(const Star &star);
 /// Two neighbouring triangles become a fold: the surface nearly lies back on itself.

@@ -23,6 +23,7 @@ using VertexHandle = OpenMesh::VertexHandle;
 
 /// OpenMesh allocates from the heap; this is what it takes for a triangle: half a vertex, one and a half edges.
 constexpr std::size_t openmesh_bytes_a_triangle = 100;
+constexpr double usually_strays = 0.02, strays_at_most = 0.25;
 
 template <class T>
 auto &at(T &array, OpenMesh::BaseHandle handle) {
@@ -71,6 +72,14 @@ class Decimator {
       try_collapse(edge);
     }
     while (!queue_.empty()) queue_.remove(queue_.top());
+  }
+
+  /// Vertices go farther off where edges run out before.
+  void collapse_to(std::int64_t target) {
+    collapse_until(target, 0);
+    if (edges_ <= target || !strayed_) return;
+    may_stray_ = strays_at_most;
+    collapse_until(target, 0);
   }
 
   /// What is left, the cut welded again.
@@ -275,9 +284,12 @@ class Decimator {
     HalfedgeHandle h = mesh_.halfedge_handle(edge, 0);
     if (at(locked_, mesh_.from_vertex_handle(h))) h = mesh_.opposite_halfedge_handle(h);
     const Placement placement = place(h);
-    if (!std::isfinite(placement.cost)) return;
-    if (leaves_pillow(h) || joins_sheets(h) || !look_around(h, placement.point)) return;
-    if (pinches_ring(star_) || turns_too_far(star_) || folds(star_) || makes_sliver(star_)) return;
+    if (!std::isfinite(placement.cost) || leaves_pillow(h) || joins_sheets(h) || !look_around(h, placement.point))
+      return;
+    const bool goes_far =
+        strays(star_, point(mesh_.from_vertex_handle(h)), point(mesh_.to_vertex_handle(h)), may_stray_);
+    strayed_ |= goes_far;
+    if (goes_far || pinches_ring(star_) || turns_too_far(star_) || folds(star_) || makes_sliver(star_)) return;
     if (limits_.are_passed(star_, samples_)) return;
     collapse(h, placement);
   }
@@ -337,8 +349,8 @@ class Decimator {
   const Surface &surface_;
   Job &job_;
   CollapseLog &log_;
-  double lambda_;
-  bool by_length_ = false;
+  double lambda_, may_stray_ = usually_strays;
+  bool by_length_ = false, strayed_ = false;
   std::int64_t edges_ = 0;
   MemoryCharge charge_;
   Mesh mesh_;
@@ -369,7 +381,7 @@ DecimateReport decimate(Surface &surface, const SurfaceTopology &topology, Span<
   const std::int64_t target = edges_kept(options.sigma, report.edges_in);
   if (options.clean_edges > 0) decimator.collapse_until(0, options.clean_edges * box_of(surface.points).diagonal());
   report.cleaned_edges = log.cleaned = std::int64_t(log.collapses.size());
-  decimator.collapse_until(target, 0);
+  decimator.collapse_to(target);
   report.edges_out = decimator.edges();
   log.exhausted = report.edges_out > target;
   Surface simplified(job.memory);

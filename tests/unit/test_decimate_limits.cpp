@@ -31,6 +31,51 @@ TEST_F(Decimate, WhatCrossesAfterwardsIsDoneAgainWithCare) {
   EXPECT_EQ(result.triangles, careful.triangles);
 }
 
+/// How far out of the box of all that is around its edge each collapse puts a vertex, as a part of its diagonal.
+std::vector<double> ways_out(const CollapseLog &log, const Surface &surface, const SurfaceTopology &topology) {
+  std::vector<Vec3> point;
+  for (std::int32_t v : topology.vertex_of) point.push_back(surface.points[std::size_t(v)]);
+  std::vector<std::int32_t> corner(topology.sheet_vertex.begin(), topology.sheet_vertex.end());
+  std::vector<double> ways;
+  for (const Collapse &c : log.collapses) {
+    Box around;
+    for (std::size_t i = 0; i < corner.size(); i++) {
+      if (corner[i] != c.from && corner[i] != c.to) continue;
+      for (std::size_t k = 0; k < 3; k++) around.add(point[std::size_t(corner[i - i % 3 + k])]);
+    }
+    ways.push_back(c.moves ? std::sqrt(distance2(around, c.point)) / around.diagonal() : 0);
+    std::replace(corner.begin(), corner.end(), c.from, c.to);
+    if (c.moves) point[std::size_t(c.to)] = c.point;
+    const auto has_gone = [&](std::size_t t) {
+      return corner[t] == corner[t + 1] || corner[t + 1] == corner[t + 2] || corner[t + 2] == corner[t];
+    };
+    for (std::size_t t = corner.size(); t > 0; t -= 3)
+      if (has_gone(t - 3)) corner.erase(corner.begin() + std::ptrdiff_t(t - 3), corner.begin() + std::ptrdiff_t(t));
+  }
+  return ways;
+}
+
+/// At the jagged rim of a thin plate the volume says little of where a vertex goes.
+TEST_F(Decimate, VerticesStayAmongTheirNeighbours) {
+  for (unsigned seed = 0; seed < 5; seed++) {
+    std::mt19937 random(seed);
+    const auto inside = [](int c) { return c > 1 && c < 12; };
+    Mesh plate = kuhn_solid({14, 14, 1}, [&](const Cell &c) { return (inside(c[0]) && inside(c[1])) || random() % 3; });
+    transform(plate, [](const Vec3 &p) { return Vec3(p.x, p.y, 0.1 * p.z); });
+    start_with(surface_of(plate, host.job));
+    CollapseLog log(host.memory);
+    for (double sigma : {0.5, 0.0}) {
+      result = original;
+      log = CollapseLog(host.memory);
+      report = decimate_boundary(result, topology, {}, {sigma, 0.1, 0}, host.job, log);
+      expect_sound();
+      const std::vector<double> ways = ways_out(log, original, topology);
+      ASSERT_FALSE(ways.empty());
+      EXPECT_LT(*std::max_element(ways.begin(), ways.end()), sigma > 0 ? 0.021 : 0.251);
+    }
+  }
+}
+
 TEST_F(Decimate, DeviationStaysWithinItsLimit) {
   start_with(random_blob(host.memory, 12, 7));
   TreeOnDemand tree(original);
