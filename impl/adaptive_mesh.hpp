@@ -24,6 +24,7 @@ class AdaptiveMesh : public TetComplex {
         probes(&memory),
         vertex_of_probe(&memory),
         outside(&memory),
+        just_outside(&memory),
         first_probe(&memory),
         next_probe(&memory) {}
 
@@ -34,7 +35,9 @@ class AdaptiveMesh : public TetComplex {
   std::size_t vertex_probes = 0;
   std::size_t left_out = 0, vertices_left_out = 0;  ///< probes in no tet, and those at original vertices among them
   Array<std::int32_t> vertex_of_probe;              ///< the original vertex of each of those
-  Array<std::uint8_t> outside;  ///< of each: it lies outside, the probe on the boundary; empty: none does
+  Array<std::uint8_t> outside;       ///< of each: it lies outside, the probe on the boundary; empty: none does
+  Array<std::int32_t> just_outside;  ///< original vertices in no tet, but so little out of one that a change of it may
+                                     ///< make rounding of that
   Array<std::int32_t> first_probe, next_probe;  ///< lists of the probes in each tet, ended by -1
 
   /// Finds the neighbours of `tets`, which has no free slot yet; all else of a tet is empty.

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "adaptive_mesh.hpp"
-#include "beyond_outside.hpp"
+#include "errors_outside.hpp"
 #include "fill_up.hpp"
 #include "fit_values.hpp"
 #include "flip_tets.hpp"
@@ -56,12 +56,12 @@ class Refinement {
     fit_values(fit_steps, job_, mesh_);
     if (enough.most_vertices < double(original_.points.size())) place_probes(original_, every_vertex(), job_, mesh_);
     if (options_.bound > 0) {
-      report_.beyond_bound = hold_bound(options_.bound, job_, mesh_);
-      if (report_.beyond_bound.empty()) report_.beyond_bound = beyond_outside(original_, options_.bound, job_, mesh_);
+      hold_bound_outside_too();
     } else {
       use_up_tets();
+      report_.max_error = largest_just_outside(original_, job_, mesh_);
     }
-    report_.max_error = largest_error(mesh_, job_).value;
+    report_.max_error = std::max(report_.max_error, largest_error(mesh_, job_).value);
     report_.mean_square = mesh_.total_error() / double(mesh_.probes.size() - mesh_.left_out);
     report_.outside = double(mesh_.vertices_left_out) / double(mesh_.vertex_probes);
     count_points();
@@ -97,6 +97,14 @@ class Refinement {
       flip();
       move(0);
     }
+  }
+
+  void hold_bound_outside_too() {
+    report_.beyond_bound = hold_bound(options_.bound, job_, mesh_);
+    if (!report_.beyond_bound.empty()) return;
+    OutsideErrors errors = errors_outside(original_, options_.bound, job_, mesh_);
+    if (errors.beyond.empty()) report_.max_error = errors.largest;
+    report_.beyond_bound = std::move(errors.beyond);
   }
 
   /// What passes left of them.

@@ -1,7 +1,7 @@
 // The largest errors of a small mesh: found, lowered one after another, and gone when every vertex is served.
 #include <gtest/gtest.h>
 
-#include "beyond_outside.hpp"
+#include "errors_outside.hpp"
 #include "hold_bound.hpp"
 #include "meshes.hpp"
 #include "place_probes.hpp"
@@ -156,16 +156,37 @@ std::vector<std::int32_t> beyond_above_sliver(double beneath, double value_of_wa
   AdaptiveMesh<1> mesh(host.memory);
   put_among(original, coarse, true, host, mesh);
   for (std::size_t v = 0; v < mesh.values.size(); v++) mesh.values[v] = {original.scalars[v]};
-  const Array<std::int32_t> beyond = beyond_outside(original.view(), bound, host.job, mesh);
+  const Array<std::int32_t> beyond = errors_outside(original.view(), bound, host.job, mesh).beyond;
   return {beyond.begin(), beyond.end()};
 }
 
-TEST(BeyondOutside, FindsWhatIsBehindASliver) {
+TEST(ErrorsOutside, FindWhatIsBehindASliver) {
   const std::vector<std::int32_t> none, above{5};
   EXPECT_EQ(beyond_above_sliver(1e-8, 0, 0.9), above);
   EXPECT_EQ(beyond_above_sliver(1e-8, 0, 1.1), none);
   EXPECT_EQ(beyond_above_sliver(1e-2, 0, 0.9), none) << "no reader finds it behind so thick a tet";
   EXPECT_EQ(beyond_above_sliver(1e-2, 1, 0.9), above) << "at the wall";
+}
+
+/// A vertex above a tet, out of it by more than rounding until the tet becomes higher.
+TEST(ErrorsOutside, KnowWhatComesToBeOutByRounding) {
+  const Mesh coarse{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3, 0.3, -1}}, {}, {{0, 1, 2, 3}}};
+  for (double out : {0.5e-6, 1.5e-6, 2.5e-6, 1e-5}) {
+    Mesh original = coarse;
+    original.points.push_back({0.3, 0.3, out});
+    original.scalars = {0, 0, 0, 0, 1};
+    original.tets.push_back({0, 1, 2, 4});
+    Host host;
+    AdaptiveMesh<1> mesh(host.memory);
+    put_among(original, coarse, false, host, mesh);
+    for (std::size_t v = 0; v < mesh.values.size(); v++) mesh.values[v] = {0};
+    const bool is_inside = out < 1e-6, is_near = !is_inside && out < 3e-6;
+    EXPECT_EQ(mesh.vertices_left_out, is_inside ? 0u : 1u) << out;
+    EXPECT_EQ(mesh.just_outside.size(), is_near ? 1u : 0u) << out;
+    EXPECT_EQ(largest_just_outside(original.view(), host.job, mesh), 0) << out;
+    mesh.points[3].z = -100;
+    EXPECT_NEAR(largest_just_outside(original.view(), host.job, mesh), is_near ? 1 : 0, 1e-4) << out;
+  }
 }
 
 }  // namespace

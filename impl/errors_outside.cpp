@@ -1,0 +1,118 @@
+#include "errors_outside.hpp"
+
+#include "geometry.hpp"
+#include "kd_tree.hpp"
+#include "surface_distance.hpp"
+#include "whole_arrays.hpp"
+
+namespace tetlod {
+
+namespace {
+
+template <std::size_t m>
+class OutsideVertices {
+ public:
+  OutsideVertices(const MeshView &original, Array<std::int32_t> &&vertices, Job &job, const AdaptiveMesh<m> &mesh)
+      : original_(original), job_(job), mesh_(mesh), vertices_(std::move(vertices)) {}
+
+  std::int32_t vertex(std::size_t k) const { return vertices_[k]; }
+
+  /// Of each, at the nearest point of the boundary.
+  Array<double> errors_on_boundary() const {
+    Array<Triangle> faces(&job_.memory);
+    Array<std::int32_t> tet_of_face(&job_.memory);
+    mesh_.find_boundary(faces, tet_of_face);
+    const TriangleTree boundary(mesh_.points, faces, job_);
+    Array<double> error(vertices_.size(), 0.0, &job_.memory);
+    for_each(vertices_.size(), job_, [&](std::size_t k) {
+      const NearestPoint at = boundary.nearest(place(k));
+      const Triangle &face = faces[std::size_t(at.triangle)];
+      const double w[4] = {at.weights[0], at.weights[1], at.weights[2], 0};
+      error[k] = error_in(k, {face[0], face[1], face[2], face[0]}, w);
+    });
+    return error;
+  }
+
+  /// Of each, in tets that it is out of by no more than rounding; 0: there are none. Tets stream past a tree of the
+  /// vertices, which are few.
+  Array<double> errors_in_tets() const {
+    struct Found {
+      std::int32_t k;
+      double error;
+    };
+    KdTree tree(job_.memory);
+    Array<Box> places(&job_.memory);
+    for (std::size_t k = 0; k < vertices_.size(); k++) places.push_back({place(k), place(k)});
+    tree.build(std::move(places), 8, job_);
+    Array<Array<Found>> parts(mesh_.tets.size() / stretch + 1, &job_.memory);
+    for_each(mesh_.tets.size(), job_, [&](std::size_t t) {
+      if (!mesh_.alive(std::int32_t(t))) return;
+      const Tet &tet = mesh_.tets[t];
+      tree.any_overlap(with_rounding(box_of<4>(mesh_.points, tet)), [&](std::int32_t k) {
+        double w[4];
+        if (holds(tet, place(std::size_t(k)), w)) parts[t / stretch].push_back({k, error_in(std::size_t(k), tet, w)});
+        return false;
+      });
+    });
+    Array<double> error(vertices_.size(), 0.0, &job_.memory);
+    for (const Array<Found> &part : parts)
+      for (const Found &f : part) error[std::size_t(f.k)] = std::max(error[std::size_t(f.k)], f.error);
+    return error;
+  }
+
+ private:
+  const Vec3 &place(std::size_t k) const { return original_.points[std::size_t(vertices_[k])]; }
+
+  double error_in(std::size_t k, const Tet &t, const double w[4]) const {
+    const Values<m> &value = original_.values<m>()[std::size_t(vertices_[k])];
+    return mesh_.largest_part(mesh_.residual(t, w, {place(k), value}));
+  }
+
+  bool holds(const Tet &t, const Vec3 &p, double w[4]) const {
+    const auto corner = [&](std::size_t k) -> const Vec3 & { return mesh_.points[std::size_t(t[k])]; };
+    return barycentric(p, corner(0), corner(1), corner(2), corner(3), w) &&
+           std::min({w[0], w[1], w[2], w[3]}) > -out_by_rounding;
+  }
+
+  const MeshView &original_;
+  Job &job_;
+  const AdaptiveMesh<m> &mesh_;
+  Array<std::int32_t> vertices_;
+};
+
+}  // namespace
+
+template <std::size_t m>
+OutsideErrors errors_outside(const MeshView &original, double bound, Job &job, const AdaptiveMesh<m> &mesh) {
+  OutsideErrors errors{Array<std::int32_t>(&job.memory)};
+  Array<std::int32_t> outside(&job.memory);
+  for (std::size_t i = 0; i < mesh.outside.size(); i++)
+    if (mesh.outside[i]) outside.push_back(mesh.vertex_of_probe[i]);
+  if (outside.empty()) return errors;
+  const OutsideVertices<m> vertices(original, std::move(outside), job, mesh);
+  const Array<double> on_boundary = vertices.errors_on_boundary(), in_tets = vertices.errors_in_tets();
+  for (std::size_t k = 0; k < in_tets.size(); k++) {
+    if (std::max(on_boundary[k], in_tets[k]) > bound) errors.beyond.push_back(vertices.vertex(k));
+    errors.largest = std::max(errors.largest, in_tets[k]);
+  }
+  return errors;
+}
+
+template <std::size_t m>
+double largest_just_outside(const MeshView &original, Job &job, const AdaptiveMesh<m> &mesh) {
+  if (mesh.just_outside.empty()) return 0;
+  Array<std::int32_t> just_outside(mesh.just_outside, &job.memory);
+  const Array<double> errors = OutsideVertices<m>(original, std::move(just_outside), job, mesh).errors_in_tets();
+  return *std::max_element(errors.begin(), errors.end());
+}
+
+template OutsideErrors errors_outside(const MeshView &, double, Job &, const AdaptiveMesh<1> &);
+template double largest_just_outside(const MeshView &, Job &, const AdaptiveMesh<1> &);
+template OutsideErrors errors_outside(const MeshView &, double, Job &, const AdaptiveMesh<2> &);
+template double largest_just_outside(const MeshView &, Job &, const AdaptiveMesh<2> &);
+template OutsideErrors errors_outside(const MeshView &, double, Job &, const AdaptiveMesh<3> &);
+template double largest_just_outside(const MeshView &, Job &, const AdaptiveMesh<3> &);
+template OutsideErrors errors_outside(const MeshView &, double, Job &, const AdaptiveMesh<4> &);
+template double largest_just_outside(const MeshView &, Job &, const AdaptiveMesh<4> &);
+
+}  // namespace tetlod
