@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "kd_tree.hpp"
-
 namespace tetlod {
 
 namespace {

@@ -74,8 +74,9 @@ class Decimator {
     while (!queue_.empty()) queue_.remove(queue_.top());
   }
 
-  /// Vertices go farther off where edges run out before.
+  /// By the paper's cost, vertices go farther off where edges run out before.
   void collapse_to(std::int64_t target) {
+    if (quadrics_.empty()) may_stray_ = usually_strays;
     collapse_until(target, 0);
     if (edges_ <= target || !strayed_) return;
     may_stray_ = strays_at_most;
@@ -283,15 +284,14 @@ class Decimator {
   void try_collapse(OpenMesh::EdgeHandle edge) {
     HalfedgeHandle h = mesh_.halfedge_handle(edge, 0);
     if (at(locked_, mesh_.from_vertex_handle(h))) h = mesh_.opposite_halfedge_handle(h);
+    const Vec3 &from = point(mesh_.from_vertex_handle(h)), &to = point(mesh_.to_vertex_handle(h));
     const Placement placement = place(h);
     if (!std::isfinite(placement.cost) || leaves_pillow(h) || joins_sheets(h) || !look_around(h, placement.point))
       return;
-    const bool goes_far =
-        strays(star_, point(mesh_.from_vertex_handle(h)), point(mesh_.to_vertex_handle(h)), may_stray_);
+    const bool goes_far = strays(star_, from, to, may_stray_);
     strayed_ |= goes_far;
     if (goes_far || pinches_ring(star_) || turns_too_far(star_) || folds(star_) || makes_sliver(star_)) return;
-    if (limits_.are_passed(star_, samples_)) return;
-    collapse(h, placement);
+    if (!limits_.are_passed(star_, samples_)) collapse(h, placement);
   }
 
   /// `from` disappears, `to` moves unless it is locked.
@@ -349,7 +349,7 @@ class Decimator {
   const Surface &surface_;
   Job &job_;
   CollapseLog &log_;
-  double lambda_, may_stray_ = usually_strays;
+  double lambda_, may_stray_ = std::numeric_limits<double>::infinity();
   bool by_length_ = false, strayed_ = false;
   std::int64_t edges_ = 0;
   MemoryCharge charge_;

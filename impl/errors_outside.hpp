@@ -1,4 +1,4 @@
-// A bound of the error for the original vertices that are just outside of a simplified mesh.
+// Errors at the original vertices that are just outside of a simplified mesh.
 #pragma once
 #include "adaptive_mesh.hpp"
 #include "job.hpp"
@@ -8,7 +8,7 @@ namespace tetlod {
 /// Of the original vertices that are outside.
 struct OutsideErrors {
   Array<std::int32_t> beyond;  ///< those where a field is off by more than the bound
-  double largest = 0;          ///< in tets that they are out of by no more than rounding
+  double largest = 0;  ///< in tets that they are out of by no more than rounding; largest_error() has the others
 };
 
 /// As they count for a bound, relative to the range as largest_error(): at the nearest point of the boundary, where

@@ -15,15 +15,6 @@ inline bool overlap(const Box &a, const Box &b) {
          a.low.z <= b.high.z && b.low.z <= a.high.z;
 }
 
-inline double distance2(const Box &box, const Vec3 &p) {
-  double sum = 0;
-  for (int k = 0; k < 3; k++) {
-    const double d = std::max(0.0, std::max(box.low[k] - p[k], p[k] - box.high[k]));
-    sum += d * d;
-  }
-  return sum;
-}
-
 class KdTree {
  public:
   explicit KdTree(Memory &memory) : boxes_(&memory), items_(&memory), nodes_(&memory), leaf_of_(&memory) {}

@@ -1,5 +1,6 @@
 // The plain structs that the stages hand to each other.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -101,6 +102,15 @@ struct Box {
     return extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
   }
 };
+
+inline double distance2(const Box &box, const Vec3 &p) {
+  double sum = 0;
+  for (int k = 0; k < 3; k++) {
+    const double d = std::max(0.0, std::max(box.low[k] - p[k], p[k] - box.high[k]));
+    sum += d * d;
+  }
+  return sum;
+}
 
 /// Of a triangle or tet.
 template <std::size_t corners>

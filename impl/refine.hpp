@@ -32,10 +32,10 @@ struct RefineReport {
   std::int64_t inserted = 0, inserted_on_boundary = 0;
   std::int64_t removed_samples = 0, removed_steiner = 0;
   Array<std::int32_t> beyond_bound;  ///< original vertices where the bound could not be held
-  double max_error = 0;              ///< at the original vertices; those outside count with a bound alone
-  double mean_square = 0;            ///< of the errors at the probes
-  double outside = 0;                ///< share of the original vertices, without a bound
-  double deviation = 0;              ///< of the new vertices of the boundary from the original's
+  double max_error = 0;    ///< at the original vertices; those farther outside than by rounding with a bound alone
+  double mean_square = 0;  ///< of the errors at the probes
+  double outside = 0;      ///< share of the original vertices, without a bound
+  double deviation = 0;    ///< of the new vertices of the boundary from the original's
 };
 
 /// `mesh` has points, scalars and tets. Fits its values, moves inner vertices, flips faces and edges, removes inner

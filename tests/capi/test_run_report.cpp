@@ -1,6 +1,7 @@
 // What the run report counts, against what the result says.
 #include <array>
 #include <cmath>
+#include <random>
 
 #include "fixtures.hpp"
 
@@ -125,6 +126,26 @@ TEST(RunReport, CountsInsertedPoints) {
   EXPECT_GT(report.inserted_points, 0);
   EXPECT_EQ(report.points_out,
             report.boundary_points_out + report.samples + report.steiner_points + report.inserted_points);
+}
+
+/// Walls that are plane to within a few times rounding: a vertex may come to be inside as its tet gets higher.
+TEST(RunReport, TheLargestErrorIsWhatIsMeasured) {
+  for (unsigned seed = 0; seed < 60; seed++) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> any(0, 1), jitter(-4e-7, 4e-7);
+    Cube cube(6);
+    for (double &x : cube.xyz) x += jitter(random) * (x == 0 || x == 1);
+    for (double &value : cube.values) value = any(random);
+    const Context context = make_context();
+    submit(context.get(), cube);
+    tetlod_set_preset(context.get(), seed % 2 ? TETLOD_PRESET_FAST : TETLOD_PRESET_ACCURATE);
+    tetlod_set_real(context.get(), TETLOD_OPT_TARGET_RATIO, 0.3);
+    ASSERT_EQ(tetlod_run(context.get()), TETLOD_OK) << message_of(context.get());
+    tetlod_error_report measured{};
+    measured.struct_size = sizeof measured;
+    ASSERT_EQ(tetlod_measure_error(context.get(), 0, &measured), TETLOD_OK);
+    EXPECT_LE(measured.max, report_of(context.get()).max_error + 1e-5) << seed << ": by more than rounding of weights";
+  }
 }
 
 }  // namespace
