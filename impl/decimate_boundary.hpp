@@ -30,8 +30,7 @@ struct DecimateReport {
 /// `topology` is the surface's own. Collapses edges of `surface`, lowest cost first, until at most sigma of its edges
 /// are left or no collapse is admissible, that is, breaks no rule and goes no further than max_deviation. Points with
 /// locked[i] != 0 (empty: none), and points where the surface touches itself, stay. What is handed back is closed, of
-/// the same topology, and crosses itself nowhere that the input did not. `log`, empty
-/// before, gets what was done.
+/// the same topology, and crosses itself nowhere that the input did not. `log`, empty before, gets what was done.
 DecimateReport decimate_boundary(Surface &surface, const SurfaceTopology &topology, Span<const std::uint8_t> locked,
                                  const DecimateOptions &options, Job &job, CollapseLog &log);
 /// The same without a log.

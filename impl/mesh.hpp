@@ -103,6 +103,7 @@ struct Box {
   }
 };
 
+/// 0 inside.
 inline double distance2(const Box &box, const Vec3 &p) {
   double sum = 0;
   for (int k = 0; k < 3; k++) {
