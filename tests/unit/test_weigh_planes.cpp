@@ -40,6 +40,16 @@ TEST_F(WeighPlanes, HoldsUnevenWallsLessTheLessTheFieldChanges) {
   EXPECT_EQ(weight_of_cube(10, 0, waves), weight_of_cube(10, 0, weaker)) << "plane walls cost nothing to hold";
 }
 
+/// Or jumps: most vertices lose nothing of it, a few do.
+TEST_F(WeighPlanes, HoldsWallsWhereTheFieldIsLinearInPieces) {
+  const auto linear = [](const Vec3 &p) { return p.x; };
+  const auto bent = [](const Vec3 &p) { return std::abs(p.x - 0.53); };
+  const auto jumping = [](const Vec3 &p) { return p.x < 0.53 ? 0.0 : 1.0; };
+  const double uneven = weight_of_cube(10, 0.05, linear);
+  EXPECT_GT(weight_of_cube(10, 0.05, bent), 2 * uneven);
+  EXPECT_GT(weight_of_cube(10, 0.05, jumping), 2 * uneven);
+}
+
 /// The field and the boundary get smoother alike.
 TEST_F(WeighPlanes, DependsLittleOnTheResolution) {
   const auto per_share = [&](int n) {
