@@ -1,6 +1,7 @@
 #include "arguments.hpp"
 
 #include <cinttypes>
+#include <cstdlib>
 #include <limits>
 
 namespace tetlod::capi {
@@ -87,13 +88,18 @@ struct Reach {
   }
 };
 
-/// Every byte that the array describes has an address.
-void require_range(const StridedArray &array, const Shape &shape) {
-  if (array.tuples == 0) return;
+Reach reach_of(const StridedArray &array) {
   Reach reach;
   reach.add(array.tuples - 1, array.tuple_stride);
   reach.add(array.components - 1, array.component_stride);
   reach.add(1, std::int64_t(element_size(array.type)));
+  return reach;
+}
+
+/// Every byte that the array describes has an address.
+void require_range(const StridedArray &array, const Shape &shape) {
+  if (array.tuples == 0) return;
+  const Reach reach = reach_of(array);
   const auto address = reinterpret_cast<std::uintptr_t>(array.data);
   const bool below = std::uint64_t(0) - std::uint64_t(reach.before) > address;
   const bool above = std::uint64_t(reach.beyond) > std::numeric_limits<std::uintptr_t>::max() - address;
@@ -113,6 +119,26 @@ void require_apart(const StridedArray &array, const Shape &shape) {
       fail(Status::argument, "%s: with strides %" PRId64 " and %" PRId64 " elements share memory", shape.name,
            array.tuple_stride, array.component_stride);
   }
+}
+
+/// Whether some byte between the first and the last of one is between those of the other.
+bool reach_each_other(const StridedArray &a, const StridedArray &b) {
+  const Reach of_a = reach_of(a), of_b = reach_of(b);
+  const auto at_a = std::int64_t(a.data), at_b = std::int64_t(b.data);
+  return at_a - of_a.before < at_b + of_b.beyond && at_b - of_b.before < at_a + of_a.beyond;
+}
+
+/// With one tuple stride for both: components are apart in each period of it.
+bool are_interleaved(const StridedArray &a, const StridedArray &b) {
+  const std::int64_t period = std::abs(a.tuple_stride);
+  if (period != std::abs(b.tuple_stride)) return false;
+  for (int i = 0; i < a.components; i++)
+    for (int j = 0; j < b.components; j++) {
+      const std::int64_t way = (b.data + j * b.component_stride) - (a.data + i * a.component_stride);
+      const std::int64_t rest = (way % period + period) % period;
+      if (rest < std::int64_t(element_size(a.type)) || period - rest < std::int64_t(element_size(b.type))) return false;
+    }
+  return true;
 }
 
 StridedArray with_strides(const tetlod_array &array) {
@@ -175,6 +201,12 @@ StridedArray checked_destination(const tetlod_array *array, const Shape &shape, 
   const StridedArray result = checked_layout(*array, shape);
   require_apart(result, shape);
   return result;
+}
+
+void require_memory_of_its_own(const StridedArray &to, const char *to_name, const StridedArray &from,
+                               const char *from_name) {
+  if (to.tuples > 0 && from.tuples > 0 && reach_each_other(to, from) && !are_interleaved(to, from))
+    fail(Status::argument, "%s: shares memory with %s", to_name, from_name);
 }
 
 void require_view(const tetlod_array *array) { require_struct(array, "out", array_size); }

@@ -50,6 +50,9 @@ struct Shape {
 StridedArray checked_source(const tetlod_array *array, const Shape &shape);
 /// An array to write `tuples` tuples to.
 StridedArray checked_destination(const tetlod_array *array, const Shape &shape, std::size_t tuples);
+/// What is written to one is read from the other nowhere.
+void require_memory_of_its_own(const StridedArray &to, const char *to_name, const StridedArray &from,
+                               const char *from_name);
 /// An array struct to fill in.
 void require_view(const tetlod_array *array);
 

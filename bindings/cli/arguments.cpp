@@ -28,11 +28,11 @@ constexpr NumberOption kNumberOptions[] = {
     {"clean-edges", "boundary edges shorter than this are collapsed first, fraction of the diagonal"},
     {"target-ratio",
      "tets kept, fraction of the original's, with less error than the paper's method; 0: by rho and sigma"},
-    {"effort", "with a target ratio or a bound: 1 is fast, 2 accurate"},
+    {"effort", "with a target ratio or a largest error: 1 is fast, 2 accurate"},
     {"remesh", "0: by collapses alone, tetlod-remesh is never started; takes target-ratio or max-error"},
-    {"max-error", "largest error allowed at the original vertices, fraction of the range; 0: no bound"},
-    {"max-deviation", "largest distance allowed between the boundaries, fraction of the diagonal; 0: no bound"},
-    {"threads", "0: one a core, which is what the tool does; the library's own default is"},
+    {"max-error", "largest error allowed at the original vertices, fraction of the range; 0: no limit"},
+    {"max-deviation", "largest distance allowed between the boundaries, fraction of the diagonal; 0: no limit"},
+    {"threads", "0: one a core, which is what the tool does unless told; the library's own default:"},
     {"seed", "of the points at which the error is measured"},
     {"time-limit", "seconds for the simplification, 0: none"},
 };
@@ -141,7 +141,7 @@ void add_options(CLI::App &app, Arguments &arguments) {
   const auto preset = [&arguments](const std::string &name) { arguments.preset = preset_named(name); };
   app.add_option_function<std::string>("--preset", preset,
                                        "sets the other options: paper, the default; fast or accurate, with a target "
-                                       "ratio of 0.1 unless there is a bound")
+                                       "ratio of 0.1 unless there is a largest error")
       ->type_name("NAME");
   for (const NumberOption &option : kNumberOptions) add_number(app, option, arguments);
   for (const NumberOption &option : kPolicyOptions) add_policy(app, option, arguments);
@@ -188,6 +188,16 @@ void check_report(const Arguments &arguments) {
   if (!lost.empty()) throw Failure(arguments.report + ": --report would overwrite " + lost, kWrongUsage);
 }
 
+// A folder, made with those around it, in the place of a file that is read or written.
+void check_pictures(const Arguments &arguments) {
+  using Path = std::filesystem::path;
+  for (Path folder = arguments.pictures; !folder.empty() && folder != folder.parent_path();
+       folder = folder.parent_path())
+    for (const std::string &file : {arguments.input, arguments.output, arguments.report})
+      if (!file.empty() && same_file(folder.string(), file))
+        throw Failure(arguments.pictures + ": --pictures would take the place of " + file, kWrongUsage);
+}
+
 }  // namespace
 
 std::optional<Arguments> parse_arguments(int argc, char **argv) {
@@ -206,6 +216,7 @@ std::optional<Arguments> parse_arguments(int argc, char **argv) {
   }
   check_endings(arguments);
   check_report(arguments);
+  check_pictures(arguments);
   return arguments;
 }
 

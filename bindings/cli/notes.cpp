@@ -5,13 +5,21 @@
 namespace cli {
 namespace {
 
+bool is_given(const Arguments &arguments, const char *option) {
+  return arguments.numbers.count(tetlod_option_from_name(option)) > 0;
+}
+
 void note_unused_options(vtkTetlodSimplify &filter, const Arguments &arguments, std::vector<std::string> &notes) {
-  if (filter.GetOption("target-ratio") <= 0 && filter.GetOption("max-error") <= 0) return;
-  if (filter.GetOption("remesh") == 0 && filter.GetOption("clean-edges") > 0)
+  const bool has_size = filter.GetOption("target-ratio") > 0 || filter.GetOption("max-error") > 0;
+  const std::string size = "--target-ratio or --max-error";
+  if (has_size && filter.GetOption("remesh") == 0 && filter.GetOption("clean-edges") > 0)
     notes.push_back("--clean-edges has no meaning with --remesh 0");
   for (const char *name : {"rho", "sigma", "lambda", "min-distance"})
-    if (arguments.numbers.count(tetlod_option_from_name(name)) > 0)
-      notes.push_back(std::string("--") + name + " has no meaning with a target ratio or a bound");
+    if (has_size && is_given(arguments, name))
+      notes.push_back(std::string("--") + name + " has no meaning with " + size);
+  if (!has_size && is_given(arguments, "effort")) notes.push_back("--effort has no meaning without " + size);
+  if (!has_size && arguments.preset.value_or(TETLOD_PRESET_PAPER) != TETLOD_PRESET_PAPER)
+    notes.push_back("--target-ratio 0 makes of any preset the paper's; " + size + " belongs to the others");
 }
 
 void note_missed_size(vtkTetlodSimplify &filter, std::vector<std::string> &notes) {

@@ -34,11 +34,19 @@ Grid read_legacy(const std::string &path) {
   return read_with(*reader, path);
 }
 
-Grid read_by_ending(const std::string &path) {
+Grid read_whole(const std::string &path, std::vector<std::string> &notes) {
+  vtkNew<CheckedReader> reader;
+  const Grid grid = read_with(*reader, path);
+  if (const int steps = reader->GetNumberOfTimeSteps(); steps > 1)
+    notes.push_back(path + ": the first of " + std::to_string(steps) + " time steps is taken");
+  return grid;
+}
+
+Grid read_by_ending(const std::string &path, std::vector<std::string> &notes) {
   const std::string ending = file_ending(path);
   if (ending == ".vtk") return read_legacy(path);
   if (ending == ".pvtu") return read_with(*vtkNew<CheckedPartsReader>(), path);
-  return read_with(*vtkNew<CheckedReader>(), path);
+  return read_whole(path, notes);
 }
 
 }  // namespace
@@ -46,7 +54,7 @@ Grid read_by_ending(const std::string &path) {
 vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string &path, VtkMessages &messages,
                                                std::vector<std::string> &notes) {
   check_readable(path);
-  Grid grid = read_by_ending(path);
+  Grid grid = read_by_ending(path, notes);
   messages.check(path, notes);
   if (grid == nullptr || grid->GetNumberOfCells() == 0) throw Failure(path + ": holds no cells");
   return grid;

@@ -24,6 +24,8 @@ vtkSmartPointer<vtkTetlodSimplify> make_filter(const Arguments &arguments, VtkMe
   for (const auto &[name, weight] : arguments.steer) filter->AddSteeringArray(name.c_str(), weight);
   std::vector<std::string> notes;
   messages.check("", notes, kWrongUsage);
+  if (filter->GetOption("remesh") == 0 && filter->GetOption("target-ratio") <= 0 && filter->GetOption("max-error") <= 0)
+    throw Failure("--remesh 0 takes --target-ratio or --max-error", kWrongUsage);
   return filter;
 }
 

@@ -15,6 +15,7 @@
 
 #include <tetlod.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -214,7 +215,8 @@ class Context {
     });
   }
   std::vector<std::int64_t> histogram(std::int32_t side, std::int32_t bins) const {
-    std::vector<std::int64_t> counts(bins > 0 ? std::size_t(bins) : 1);
+    constexpr std::int32_t most = 1 << 20;  // beyond, C refuses
+    std::vector<std::int64_t> counts(std::size_t(std::clamp(bins, 1, most)));
     require(tetlod_histogram(handle_, side, bins, counts.data()));
     return counts;
   }

@@ -4,8 +4,8 @@ module tetlod_lifetime
     c_loc, c_null_funptr, c_null_ptr, c_ptr, c_associated, c_size_t, c_sizeof
   use tetlod_c
   use tetlod_text, only: c_text, fortran_text
-  use tetlod_types, only: tetlod_config, TETLOD_API_VERSION, TETLOD_ERR_MEMORY, TETLOD_ERR_STATE, TETLOD_OK, &
-    TETLOD_OPT_THREADS
+  use tetlod_types, only: tetlod_config, TETLOD_API_VERSION, TETLOD_ERR_ARGUMENT, TETLOD_ERR_MEMORY, TETLOD_ERR_STATE, &
+    TETLOD_OK, TETLOD_OPT_THREADS
   implicit none
   private
   public :: tetlod_log_procedure, tetlod_progress_procedure
@@ -56,7 +56,7 @@ module tetlod_lifetime
 
 contains
 
-  ! memory_limit in bytes, 0 for none; remesher is the path of tetlod-remesh. allocate and release are C functions as
+  ! memory_limit in bytes, 0 for none, not negative; remesher is the path of tetlod-remesh. allocate and release are C functions as
   ! in tetlod_config.
   subroutine create(this, memory_limit, remesher, allocate, release, allocator_user, stat, errmsg)
     class(tetlod_owner), intent(inout) :: this
@@ -73,6 +73,12 @@ contains
     if (c_associated(this%handle)) then
       call conclude(TETLOD_ERR_STATE, "create: the context exists already; destroy it first", stat, errmsg)
       return
+    end if
+    if (present(memory_limit)) then
+      if (memory_limit < 0) then
+        call conclude(TETLOD_ERR_ARGUMENT, "create: the memory limit is negative", stat, errmsg)
+        return
+      end if
     end if
     config%struct_size = int(c_sizeof(config), c_int32_t)
     config%api_version = TETLOD_API_VERSION
@@ -98,23 +104,28 @@ contains
     call conclude(status, this%last_message(), stat, errmsg)
   end subroutine
 
-  ! Ends the context and its result; the submitted arrays are free again. Allowed without a context; does nothing inside
-  ! a callback of the context.
+  ! Ends the context and its result; the submitted arrays are free again. Allowed without a context, and where a copy
+  ! ended it; does nothing inside a callback of the context.
   subroutine destroy(this)
     class(tetlod_owner), intent(inout) :: this
-    if (is_in_use(this)) return
-    call c_destroy(this%handle)
+    integer(c_int32_t) :: status
+    status = status_of(this)
+    if (status == TETLOD_ERR_STATE) return
+    if (status == TETLOD_OK) then
+      call c_destroy(this%handle)
+      deallocate (this%called)
+    end if
     this%handle = c_null_ptr
-    if (associated(this%called)) deallocate (this%called)
+    nullify (this%called)
   end subroutine
 
-  ! Whether C would ignore destroy, which does not tell: it refuses every other call then, too.
-  function is_in_use(this)
+  ! What C says to any call: a failure inside a callback, without a context, or where there is none any more.
+  function status_of(this) result(status)
     class(tetlod_owner), intent(in) :: this
-    logical :: is_in_use
+    integer(c_int32_t) :: status
     integer(c_int64_t) :: threads
     threads = 0
-    is_in_use = c_get_int(this%handle, TETLOD_OPT_THREADS, threads) == TETLOD_ERR_STATE
+    status = c_get_int(this%handle, TETLOD_OPT_THREADS, threads)
   end function
 
   ! The one call allowed from another thread.

@@ -34,6 +34,31 @@ TEST_F(Fields, EveryHookedAllocationOfTransfer) {
   EXPECT_GT(failures, 5);
 }
 
+/// Between the bytes of the original's tuples there may be room for the simplified one's.
+TEST_F(Fields, TransferTakesMemoryOfItsOwn) {
+  const auto field = field_of(cube, 1, bent);
+  run();
+  std::vector<double> pairs;
+  for (const double value : field) pairs.insert(pairs.end(), {value, -99});
+  const std::vector<double> before = pairs;
+  tetlod_array from = array_of(TETLOD_FLOAT64, points(), 1, pairs.data());
+  from.tuple_stride = 2 * sizeof(double);
+  tetlod_array to = from;
+  for (const std::ptrdiff_t shift : {0, 2, 4}) {
+    to.data = pairs.data() + shift;
+    to.tuples = std::int64_t(points()) - shift / 2;
+    expect_failure(tetlod_transfer(context.get(), &from, &to), TETLOD_ERR_ARGUMENT, "simplified: shares memory");
+  }
+  to = array_of(TETLOD_FLOAT64, points(), 1, pairs.data() + 1);
+  expect_failure(tetlod_transfer(context.get(), &from, &to), TETLOD_ERR_ARGUMENT, "simplified: shares memory");
+  EXPECT_EQ(pairs, before);
+  to.tuple_stride = from.tuple_stride;
+  ASSERT_EQ(tetlod_transfer(context.get(), &from, &to), TETLOD_OK) << message_of(context.get());
+  const auto moved = move(field, 1);
+  for (std::size_t i = 0; i < moved.size(); i++) EXPECT_EQ(pairs[2 * i + 1], moved[i]);
+  for (std::size_t i = 0; i < field.size(); i++) EXPECT_EQ(pairs[2 * i], field[i]);
+}
+
 /// The estimate counts what rides along, and a limit below it is met by a status.
 TEST_F(Fields, MemoryIsCounted) {
   const auto field = field_of(cube, 64, bent);

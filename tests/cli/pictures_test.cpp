@@ -72,10 +72,19 @@ TEST_F(Pictures, OtherCellsAndValuesThatAreNone) {
 
 TEST_F(Pictures, AFolderThatCannotBeMade) {
   write_cube(folder / "in.vtk", {});
-  const Outcome outcome = run_tool({folder / "in.vtk", folder / "out.vtu", "--pictures", folder / "in.vtk/pictures"});
-  EXPECT_EQ(outcome.status, 1);
-  EXPECT_EQ(lines_of(outcome.err), 1) << outcome.err;
-  EXPECT_EQ(folder.names(), std::vector<std::string>{"in.vtk"}) << "nothing was done";
+  write_cube(folder / "other.vtk", {});
+  const auto run_with = [&](const std::string &pictures) {
+    return run_tool({folder / "in.vtk", folder / "out.vtu", "--report", folder / "run.json", "--pictures",
+                     folder / pictures});
+  };
+  const auto expect_nothing_done = [&](const Outcome &outcome, int status) {
+    EXPECT_EQ(outcome.status, status);
+    EXPECT_EQ(lines_of(outcome.err), 1) << outcome.err;
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"in.vtk", "other.vtk"}));
+  };
+  expect_nothing_done(run_with("other.vtk/pictures"), 1);
+  for (const char *in_the_way : {"in.vtk", "in.vtk/pictures", "out.vtu", "out.vtu/a/b", "run.json", "run.json/a"})
+    expect_nothing_done(run_with(in_the_way), 2);
 }
 
 TEST_F(Pictures, APictureThatBecomesTooLarge) {

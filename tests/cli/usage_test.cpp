@@ -62,6 +62,7 @@ TEST_F(Usage, WrongCommandLines) {
   for (const char *option : {"--target-ratio", "--threads", "--field", "--report", "--pictures", "--on-flat"})
     expect_failure(run_tool({in, out, option, ""}), 2, option);
   expect_failure(run_tool({in, out, "--preset", "none-such"}), 2, "none-such");
+  expect_failure(run_tool({in, out, "--remesh", "0"}), 2, "--remesh 0 takes");
   expect_failure(run_tool({in, out, "--steer", "other:-1"}), 2, "field other: weight -1");
   expect_failure(run_tool({in, out, "--steer", "other:nan"}), 2, "field other: weight nan");
   expect_failure(run_tool({in, out, "--steer", "a", "--steer", "b:2", "--steer", "c", "--steer", "d"}), 2,
@@ -77,13 +78,27 @@ TEST_F(Usage, OptionsWithoutMeaningAndAMissedSizeAreNoted) {
   const Outcome unused = run_on({}, {"--target-ratio", "0.2", "--sigma", "0.5", "--rho", "0"});
   EXPECT_EQ(unused.status, 0);
   EXPECT_EQ(unused.err,
-            "tetlod: note: --rho has no meaning with a target ratio or a bound\n"
-            "tetlod: note: --sigma has no meaning with a target ratio or a bound\n");
+            "tetlod: note: --rho has no meaning with --target-ratio or --max-error\n"
+            "tetlod: note: --sigma has no meaning with --target-ratio or --max-error\n");
+  EXPECT_EQ(run_on({}, {"--effort", "1", "--max-deviation", "0.5"}).err,
+            "tetlod: note: --effort has no meaning without --target-ratio or --max-error\n");
+  EXPECT_NE(run_on({}, {"--preset", "fast", "--target-ratio", "0"}).err.find("--target-ratio 0"), std::string::npos);
   EXPECT_EQ(run_on({}, {"--rho", "0"}).err, "");
   const Outcome missed = run_on({}, {"--target-ratio", "0.0001"});
   EXPECT_EQ(missed.status, 0);
   EXPECT_NE(missed.err.find("note: a part of 0.0001 of the tets was asked for, and 0.0"), std::string::npos)
       << missed.err;
+}
+
+TEST_F(Usage, OfSeveralTimeStepsOneIsTaken) {
+  const std::string in = folder / "in.vtu", out = folder / "out.vtu", grid = "<UnstructuredGrid";
+  write_cube(folder / "in.vtk", {});
+  ASSERT_EQ(run_tool({folder / "in.vtk", in}).status, 0);
+  std::string series = contents_of(in);
+  std::ofstream(in, std::ios::binary) << series.insert(series.find(grid) + grid.size(), " TimeValues=\"0 1 2\"");
+  const Outcome outcome = run_tool({in, out});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.err, "tetlod: note: " + in + ": the first of 3 time steps is taken\n");
 }
 
 TEST_F(Usage, FilesThatCannotBeRead) {

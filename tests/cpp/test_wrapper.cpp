@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <tetlod.hpp>
 
@@ -68,6 +69,8 @@ TEST(Wrapper, SimplifiesAndKeepsALinearField) {
   std::int64_t counted = 0;
   for (std::int64_t count : lod.histogram(1, 10)) counted += count;
   EXPECT_EQ(counted, n.points);
+  for (std::int32_t bins : {std::numeric_limits<std::int32_t>::min(), 0, std::numeric_limits<std::int32_t>::max()})
+    EXPECT_THROW(lod.histogram(1, bins), tetlod::Error) << "and no memory for them";
 }
 
 TEST(Wrapper, AFurtherFieldSteers) {

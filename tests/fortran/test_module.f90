@@ -213,6 +213,23 @@ contains
     call expect(tetlod_option_name(-1) == "", "no option name")
     call lod%destroy()
     call lod%destroy()
+    call lod%create(memory_limit=-1_int64, stat=stat)
+    call expect(stat == TETLOD_ERR_ARGUMENT, "a negative memory limit")
+  end subroutine
+
+  ! Whichever of the two is destroyed first.
+  subroutine test_copies()
+    type(tetlod_context) :: lod, copy
+    integer :: stat
+    call lod%create()
+    copy = lod
+    call lod%destroy()
+    call copy%set_rho(0.5, stat=stat)
+    call expect(stat == TETLOD_ERR_ARGUMENT, "a copy of what was destroyed is no context")
+    call copy%destroy()
+    call copy%create(stat=stat)
+    call expect(stat == TETLOD_OK, "it can be created anew")
+    call copy%destroy()
   end subroutine
 
   subroutine stop_at_once(stage, fraction, cancel, user)
@@ -327,6 +344,7 @@ program test_module
   call make_mesh()
   call test_layouts()
   call test_failures()
+  call test_copies()
   call test_callbacks()
   call test_calls_inside_progress()
   call test_calls_inside_log()
