@@ -113,7 +113,7 @@ tetlod_status tetlod_measure_error(tetlod_context *handle, int32_t samples_per_t
     Job job(context.memory, context.parallel);
     connect_log(job, context);
     connect_progress(job, context);
-    refuse_changed(fingerprint_of_mesh(original, job), outcome.result);
+    refuse_changed(fingerprint_of_mesh(original, options, job), outcome.result);
     const FieldError error = measure_error(original, options, outcome.result.mesh, samples_per_tet, job);
     copy_struct(report_of(error, samples_per_tet), out);
   });

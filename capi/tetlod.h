@@ -384,7 +384,7 @@ TETLOD_API tetlod_status tetlod_submit_field(tetlod_context *context, const char
 TETLOD_API tetlod_status tetlod_submit_steering(tetlod_context *context, const char *name, double weight,
                                                 const tetlod_array *values);
 enum {
-  TETLOD_FLAG_KEEP = 1, /* the vertex survives, with its place and value */
+  TETLOD_FLAG_KEEP = 1, /* the vertex survives, with its place and value, unless it is ignored (no tet, no value) */
   TETLOD_FLAG_LOCK = 2  /* the same, for an interface of partitions: triangles and edges of the boundary between locked
                            vertices stay as well, so that the other side still fits */
 };
@@ -404,7 +404,7 @@ TETLOD_API tetlod_status tetlod_check(tetlod_context *context, tetlod_mesh_repor
 /* Estimates tetlod_run_report.peak_bytes of a tetlod_run with what is submitted and the options as they are, within a
  * factor of 1.5 where the mesh is sound and its topology allows the size; two and a half times as much may be taken
  * where it does not, or a bound has vertices restored, a third where what is kept is reused. TETLOD_ERR_STATE, what
- * tetlod_run() says of a bad mesh, TETLOD_ERR_MEMORY_LIMIT, _CANCELLED, _TIME_LIMIT. */
+ * tetlod_run() says of a bad mesh or of ranges, TETLOD_ERR_MEMORY_LIMIT, _CANCELLED, _TIME_LIMIT. */
 TETLOD_API tetlod_status tetlod_estimate_memory(tetlod_context *context, uint64_t *bytes);
 
 /* ---- Running ----------------------------------------------------------------------------------------------------- */
@@ -437,8 +437,8 @@ TETLOD_API tetlod_status tetlod_estimate_memory(tetlod_context *context, uint64_
 TETLOD_API tetlod_status tetlod_run(tetlod_context *context);
 
 /* Estimates the field error of the last result [4], at the original vertices and at samples_per_tet (0 to 100) random
- * samples in each original tet. The input of the run must still be submitted: TETLOD_ERR_STATE if it is not, or points
- * or tets changed. _STRUCT_SIZE, _MEMORY_LIMIT, TETLOD_ERR_CANCELLED, TETLOD_ERR_TIME_LIMIT, _MESH_NONFINITE. */
+ * samples in each original tet. The input of the run must still be submitted: TETLOD_ERR_STATE if it is not, or points,
+ * tets or which values are ignored changed. _STRUCT_SIZE, _MEMORY_LIMIT, _CANCELLED, _TIME_LIMIT, _MESH_NONFINITE. */
 TETLOD_API tetlod_status tetlod_measure_error(tetlod_context *context, int32_t samples_per_tet,
                                               tetlod_error_report *out);
 /* How many original (side 0) or result (side 1) vertices have a value in each of `bins` equal parts of the original's
@@ -474,8 +474,8 @@ TETLOD_API tetlod_status tetlod_fetch_field(const tetlod_context *context, const
  * of the original boundary: three weights and a 0. An id of weight 0 is a vertex, too. Of points that were merged the
  * lowest is named. The scalars of the result are not made from it where decimation placed a vertex.
  * It takes no time until it is asked for: unless the run carried a point field, the first call of this or of
- * tetlod_transfer for a result reads points, tets and scalars again, which must still be submitted then, points and
- * tets as they were: else TETLOD_ERR_STATE. TETLOD_ERR_BUFFER_SIZE, _MEMORY_LIMIT, _CANCELLED, _MESH_NONFINITE. */
+ * tetlod_transfer for a result reads the arrays of points, tets and what steers again, points, tets and which values are
+ * ignored as they were: else TETLOD_ERR_STATE. TETLOD_ERR_BUFFER_SIZE, _MEMORY_LIMIT, _CANCELLED, _MESH_NONFINITE. */
 TETLOD_API tetlod_status tetlod_fetch_stencil(const tetlod_context *context, int32_t index_base, tetlod_array *ids,
                                               tetlod_array *weights);
 /* Moves any other point field (or the same at a later time) to the result by that stencil: simplified[i] = the mean of

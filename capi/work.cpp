@@ -46,11 +46,17 @@ bool same(const StridedArray &a, const StridedArray &b) {
 
 bool same(const SteeringField &a, const SteeringField &b) { return a.name == b.name && same(a.values, b.values); }
 
-bool same(const Input &a, const Input &b) {
-  return same(a.xyz[0], b.xyz[0]) && same(a.xyz[1], b.xyz[1]) && same(a.xyz[2], b.xyz[2]) && same(a.tets, b.tets) &&
-         a.index_base == b.index_base && same(a.scalars, b.scalars) &&
-         std::equal(a.steering.begin(), a.steering.end(), b.steering.begin(), b.steering.end(),
+bool same(const std::vector<SteeringField> &a, const std::vector<SteeringField> &b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                     [](const SteeringField &f, const SteeringField &g) { return same(f, g); });
+}
+
+/// What of the one is not in the other; null: nothing.
+const char *first_difference(const Input &a, const Input &b) {
+  if (!same(a.xyz[0], b.xyz[0]) || !same(a.xyz[1], b.xyz[1]) || !same(a.xyz[2], b.xyz[2])) return "points";
+  if (!same(a.tets, b.tets) || a.index_base != b.index_base) return "tets";
+  if (!same(a.scalars, b.scalars)) return "scalars";
+  return same(a.steering, b.steering) ? nullptr : "fields that steer";
 }
 
 void require_submitted(const StridedArray &array, const char *name) {
@@ -71,7 +77,8 @@ void require_submitted(const Input &input) {
 
 Input original_of(const Outcome &outcome, const Input &now) {
   require_submitted(now);
-  if (!same(outcome.input, now)) fail(Status::state, "the arrays of the last run are not submitted any more");
+  if (const char *changed = first_difference(outcome.input, now))
+    fail(Status::state, "the %s of the last run are not submitted any more", changed);
   Input original = outcome.input;
   original.flags = {};
   original.fields.clear();

@@ -29,7 +29,7 @@ void Beginning::tell_unequal_fields() const {
 
 void Beginning::prepare() {
   const StageTimer timer(Stage::prepare, job_, report_);
-  result_.original = fingerprint_of_mesh(input_, job_);
+  result_.original = fingerprint_of_mesh(input_, options_, job_);
   if (prepared_.renew(result_.original, input_, options_, job_)) {
     report_.reused_tets = input_.tets.tuples;
   } else {

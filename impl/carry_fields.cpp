@@ -106,12 +106,13 @@ void split_fields(const Input &input, Job &job, Result &result) {
 
 void refuse_changed(const Fingerprint &mesh, const Result &result) {
   if (!(mesh == result.original))
-    fail(Status::state, "the submitted points or tets have changed since the run that made the result");
+    fail(Status::state,
+         "the submitted points or tets, or which values are finite, have changed since the run that made the result");
 }
 
 void find_stencil(const Input &input, const Options &options, Prepared &prepared, Job &job, Result &result) {
   if (!result.stencil.ids.empty()) return;
-  const Fingerprint mesh = fingerprint_of_mesh(input, job);
+  const Fingerprint mesh = fingerprint_of_mesh(input, options, job);
   refuse_changed(mesh, result);
   Prepared fresh(job.memory);
   const bool held = prepared.holds(mesh, input, options, job);

@@ -30,7 +30,8 @@ class KeptVertices {
       if (v >= 0) lost[std::size_t(v)] = 0;
     for (std::int32_t v : selected)
       if (lost[std::size_t(v)])
-        fail(Status::remesh, "vertex %lld is to be kept, and is no vertex of the simplified solid", (long long)v + index_base);
+        fail(Status::remesh, "vertex %lld is to be kept, and is no vertex of the simplified solid",
+             (long long)v + index_base);
   }
 
   /// Of points that are these original vertices, or, -1, none.

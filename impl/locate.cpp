@@ -1,5 +1,8 @@
 #include "locate.hpp"
 
+#include <algorithm>
+#include <tuple>
+
 #include "geometry.hpp"
 #include "kd_tree.hpp"
 #include "surface_distance.hpp"
@@ -93,6 +96,15 @@ class PointTree {
   KdTree tree_;
 };
 
+/// Of each point the best one alone, the lowest of those: a vertex is held by all of its tets.
+void keep_best(Array<Hit> &hits) {
+  std::sort(hits.begin(), hits.end(), [](const Hit &a, const Hit &b) {
+    return std::make_tuple(a.point, -a.depth, a.tet) < std::make_tuple(b.point, -b.depth, b.tet);
+  });
+  const auto same_point = [](const Hit &a, const Hit &b) { return a.point == b.point; };
+  hits.erase(std::unique(hits.begin(), hits.end(), same_point), hits.end());
+}
+
 /// Of each point the tet that holds it best, the lowest of those; -1: none.
 Array<std::int32_t> find_tets(const MeshView &mesh, Span<const Vec3> points, std::int64_t leaf, Job &job) {
   const PointTree tree(mesh, points, job);
@@ -102,8 +114,11 @@ Array<std::int32_t> find_tets(const MeshView &mesh, Span<const Vec3> points, std
     Array<Box> boxes(&job.memory);
     boxes.reserve(end - begin);
     for (std::size_t t = begin; t < end; t++) boxes.push_back(box_of(mesh.points, mesh.tets[t]));
+    Array<Hit> all(&job.memory);
     for (std::size_t k = 0; k < boxes.size(); k += run)
-      tree.find(begin + k, {boxes.data() + k, std::min(run, boxes.size() - k)}, hits[begin / tets_in_block]);
+      tree.find(begin + k, {boxes.data() + k, std::min(run, boxes.size() - k)}, all);
+    keep_best(all);
+    hits[begin / tets_in_block].assign(all.begin(), all.end());
     job.poll(0.5 * double(end) / double(mesh.tets.size()));
   });
   Array<std::int32_t> tets(points.size(), -1, &job.memory);

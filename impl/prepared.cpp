@@ -1,5 +1,7 @@
 #include "prepared.hpp"
 
+#include <cmath>
+
 #include "decimate_and_check.hpp"
 
 namespace tetlod {
@@ -23,13 +25,27 @@ Fingerprint fingerprint_of(Span<const double> values, const DecimateOptions &opt
   return fingerprint;
 }
 
+/// Where they are, in which field: their points and tets are ignored.
+void add_nonfinite_values(const Input &input, Job &job, Fingerprint &mesh) {
+  const auto add = [&](const StridedArray &values) {
+    for (std::int64_t v = 0; v < values.tuples; v++) {
+      if (v % 65536 == 0) job.poll(0);
+      if (!std::isfinite(values.real(v, 0))) mesh.add(std::uint64_t(v));
+    }
+    mesh.add(std::uint64_t(values.tuples));
+  };
+  add(input.scalars);
+  for (const SteeringField &field : input.steering) add(field.values);
+}
+
 }  // namespace
 
-Fingerprint fingerprint_of_mesh(const Input &input, Job &job) {
+Fingerprint fingerprint_of_mesh(const Input &input, const Options &options, Job &job) {
   Fingerprint mesh;
   for (const StridedArray &coordinate : input.xyz) mesh.add(coordinate, job);
   mesh.add(input.tets, job);
   mesh.add(std::uint64_t(input.index_base));
+  if (options.on_nonfinite == policy_repair) add_nonfinite_values(input, job, mesh);
   return mesh;
 }
 

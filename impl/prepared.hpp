@@ -20,8 +20,8 @@
 
 namespace tetlod {
 
-/// Of its points and tets.
-Fingerprint fingerprint_of_mesh(const Input &input, Job &job);
+/// Of its points and tets, and of where those are that a value without one removes.
+Fingerprint fingerprint_of_mesh(const Input &input, const Options &options, Job &job);
 
 class Prepared {
  public:

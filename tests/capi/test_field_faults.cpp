@@ -59,6 +59,54 @@ TEST_F(Fields, TransferTakesMemoryOfItsOwn) {
   for (std::size_t i = 0; i < field.size(); i++) EXPECT_EQ(pairs[2 * i], field[i]);
 }
 
+/// Values that are not finite take points and tets away, and the stencil would be looked for in another mesh.
+TEST_F(Fields, TheStencilNeedsTheHolesOfItsRun) {
+  const auto field = field_of(cube, 1, bent);
+  const std::vector<double> whole = cube.values;
+  ASSERT_EQ(tetlod_set_int(context.get(), TETLOD_OPT_ON_NONFINITE, TETLOD_POLICY_REPAIR), TETLOD_OK);
+  cube.values.front() = std::nan("");
+  run();
+  std::vector<double> room(points_out(), -99);
+  const tetlod_array from = array_of(TETLOD_FLOAT64, points(), 1, field.data());
+  tetlod_array to = array_of(TETLOD_FLOAT64, points_out(), 1, room.data());
+  tetlod_error_report error{};
+  error.struct_size = sizeof error;
+  for (const std::size_t hole : {whole.size(), whole.size() - 1}) {
+    cube.values = whole;
+    if (hole < whole.size()) cube.values[hole] = std::nan("");
+    submit(context.get(), cube);
+    expect_failure(tetlod_transfer(context.get(), &from, &to), TETLOD_ERR_STATE, "which values are finite");
+    expect_failure(tetlod_measure_error(context.get(), 0, &error), TETLOD_ERR_STATE, "which values are finite");
+  }
+  EXPECT_EQ(room, std::vector<double>(points_out(), -99));
+  cube.values = whole;
+  cube.values.front() = std::nan("");
+  cube.values.back() += 1;
+  EXPECT_EQ(tetlod_transfer(context.get(), &from, &to), TETLOD_OK) << "other values there are the stencil's own matter";
+}
+
+/// What is located is kept once, not for each of the tets that a vertex has.
+TEST_F(Fields, PointsThatAreLocatedTakeLittleMemory) {
+  cube = Cube(22);
+  const auto field = field_of(cube, 1, bent);
+  cube.values = field;
+  ASSERT_EQ(tetlod_set_real(context.get(), TETLOD_OPT_SIGMA, 0.5), TETLOD_OK);
+  ASSERT_EQ(tetlod_set_real(context.get(), TETLOD_OPT_RHO, 0.001), TETLOD_OK);
+  const auto peak_of_run = [&] {
+    run();
+    tetlod_run_report report{};
+    report.struct_size = sizeof report;
+    EXPECT_EQ(tetlod_fetch_report(context.get(), &report), TETLOD_OK);
+    EXPECT_EQ(tetlod_clear(context.get()), TETLOD_OK);
+    return double(report.peak_bytes);
+  };
+  submit(context.get(), cube);
+  const double bare = peak_of_run();
+  submit(context.get(), cube);
+  ASSERT_EQ(carry("bent", field, 1), TETLOD_OK);
+  EXPECT_LT(peak_of_run(), 1.4 * bare) << "1.74 with a hit for each tet";
+}
+
 /// The estimate counts what rides along, and a limit below it is met by a status.
 TEST_F(Fields, MemoryIsCounted) {
   const auto field = field_of(cube, 64, bent);

@@ -260,10 +260,10 @@ TEST_F(Fields, TheStencilNeedsTheMeshOfItsRun) {
   std::vector<double> room(points_out(), -99);
   const tetlod_array from = array_of(TETLOD_FLOAT64, points(), 1, field.data());
   tetlod_array to = array_of(TETLOD_FLOAT64, points_out(), 1, room.data());
-  expect_failure(tetlod_transfer(context.get(), &from, &to), TETLOD_ERR_STATE, "points or tets have changed");
+  expect_failure(tetlod_transfer(context.get(), &from, &to), TETLOD_ERR_STATE, "have changed since the run");
   tetlod_error_report error{};
   error.struct_size = sizeof error;
-  expect_failure(tetlod_measure_error(context.get(), 0, &error), TETLOD_ERR_STATE, "points or tets have changed");
+  expect_failure(tetlod_measure_error(context.get(), 0, &error), TETLOD_ERR_STATE, "have changed since the run");
   EXPECT_EQ(room, std::vector<double>(points_out(), -99));
   move_mesh(-moved);
   for (double &x : cube.xyz) x = std::round(x * 5) / 5;  // to the last bit

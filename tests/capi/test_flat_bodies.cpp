@@ -38,6 +38,27 @@ TEST_F(FlatBody, IsRemeshedBeforeItsFoldsGetSharper) {
   EXPECT_EQ(run(0.01, 0.07, 0).remesh_attempts, 0);
 }
 
+/// Remeshing finds no volume in it, as doubles round; collapses alone have a result, and it is that.
+TEST_F(FlatBody, IsWhatCollapsesMakeOfItWhereRemeshingFindsNoVolume) {
+  Cube box(8);
+  std::vector<tetlod_run_report> reports;
+  for (std::size_t v = 0; v < box.values.size(); v++) {
+    double *const p = box.xyz.data() + 3 * v;
+    box.values[v] = std::sin(5 * p[0]) * std::cos(4 * p[1]) + p[2] * p[2];
+    p[2] *= 1e-15;
+  }
+  for (int remesh : {1, 0}) {
+    const Context context = make_context();
+    tetlod_set_preset(context.get(), TETLOD_PRESET_ACCURATE);
+    tetlod_set_int(context.get(), TETLOD_OPT_REMESH, remesh);
+    tetlod_set_real(context.get(), TETLOD_OPT_MAX_ERROR, 0.05);
+    submit(context.get(), box);
+    ASSERT_EQ(tetlod_run(context.get()), TETLOD_OK) << message_of(context.get());
+    reports.push_back(report_of(context.get()));
+  }
+  EXPECT_EQ(reports[0].tets_out, reports[1].tets_out);
+}
+
 /// Where edges are to be cleaned it is remeshed alone, which may not come to the size.
 TEST_F(FlatBody, TheLogTellsASizeThatRemeshingMisses) {
   for (std::size_t v = 0; v < cube.values.size(); v++) cube.xyz[3 * v + 2] *= 0.01;

@@ -74,8 +74,8 @@ TEST_F(Pictures, AFolderThatCannotBeMade) {
   write_cube(folder / "in.vtk", {});
   write_cube(folder / "other.vtk", {});
   const auto run_with = [&](const std::string &pictures) {
-    return run_tool({folder / "in.vtk", folder / "out.vtu", "--report", folder / "run.json", "--pictures",
-                     folder / pictures});
+    return run_tool(
+        {folder / "in.vtk", folder / "out.vtu", "--report", folder / "run.json", "--pictures", folder / pictures});
   };
   const auto expect_nothing_done = [&](const Outcome &outcome, int status) {
     EXPECT_EQ(outcome.status, status);
