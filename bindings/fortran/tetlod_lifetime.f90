@@ -56,8 +56,8 @@ module tetlod_lifetime
 
 contains
 
-  ! memory_limit in bytes, 0 for none, not negative; remesher is the path of tetlod-remesh. allocate and release are C functions as
-  ! in tetlod_config.
+  ! memory_limit in bytes, not negative, 0 for none; remesher is the path of tetlod-remesh. allocate and release are C
+  ! functions as in tetlod_config.
   subroutine create(this, memory_limit, remesher, allocate, release, allocator_user, stat, errmsg)
     class(tetlod_owner), intent(inout) :: this
     integer(c_int64_t), intent(in), optional :: memory_limit
