@@ -56,12 +56,13 @@ const CarriedField &carried_field(const Result &result, const char *name) {
   fail(Status::argument, "the last run carried no field %.100s, but %.400s", name, names_of(result.fields).c_str());
 }
 
-/// Of the last result; found now, if it has not been needed before.
+/// Of the last result; found now, if it has not been needed before: in the mesh, whatever its values are by now.
 const Stencil &stencil_of(tetlod_context &context) {
   Outcome &outcome = last_outcome(context);
   if (outcome.result.stencil.ids.empty()) {
-    Input original = original_of(outcome, context.input);
-    original.flags = context.input.flags;  // what is prepared is of a mesh with them
+    require_submitted(context.input);
+    Input original = context.input;
+    original.fields.clear();
     begin(context);
     Job job(context.memory, context.parallel);
     connect_log(job, context);

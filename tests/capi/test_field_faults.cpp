@@ -59,6 +59,27 @@ TEST_F(Fields, TransferTakesMemoryOfItsOwn) {
   for (std::size_t i = 0; i < field.size(); i++) EXPECT_EQ(pairs[2 * i], field[i]);
 }
 
+/// A solver that writes each step into other arrays, and lets another field steer from then on.
+TEST_F(Fields, TheStencilIsThatOfTheMeshWhateverItsValuesAre) {
+  const auto field = field_of(cube, 1, bent);
+  run();
+  const auto moved = move(field, 1);
+  for (const bool steers : {false, true}) {
+    submit(context.get(), cube);
+    run();
+    Cube later = cube;
+    for (double &value : later.values) value = -value * value;
+    submit(context.get(), later);
+    const tetlod_array second = array_of(TETLOD_FLOAT64, points(), 1, field.data());
+    ASSERT_EQ(tetlod_submit_steering(context.get(), "second", steers ? 1 : 0, &second), TETLOD_OK);
+    EXPECT_EQ(move(field, 1), moved);
+    tetlod_error_report error{};
+    error.struct_size = sizeof error;
+    expect_failure(tetlod_measure_error(context.get(), 0, &error), TETLOD_ERR_STATE, "of the last run are not");
+    ASSERT_EQ(tetlod_clear(context.get()), TETLOD_OK);
+  }
+}
+
 /// Values that are not finite take points and tets away, and the stencil would be looked for in another mesh.
 TEST_F(Fields, TheStencilNeedsTheHolesOfItsRun) {
   const auto field = field_of(cube, 1, bent);
