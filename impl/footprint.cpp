@@ -33,7 +33,7 @@ constexpr double bytes_a_refined_tet = 164, bytes_a_refined_triangle = 171, byte
 constexpr double rounds_a_refined_tet = 50, grown = 3;
 // Of these for each field more that steers.
 constexpr double values_a_refined_tet = 4, values_a_solid_point = 8;
-// Of a field: original vertices are held by tets of several blocks, the centroids of cells by one.
+// Of a field.
 constexpr double bytes_a_located_point = 400, bytes_a_located_cell = 190, bytes_a_stencil = 48;
 
 /// Bytes at a vertex, of the fields after the first.

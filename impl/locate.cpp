@@ -1,8 +1,5 @@
 #include "locate.hpp"
 
-#include <algorithm>
-#include <tuple>
-
 #include "geometry.hpp"
 #include "kd_tree.hpp"
 #include "surface_distance.hpp"
@@ -11,7 +8,7 @@ namespace tetlod {
 
 namespace {
 
-constexpr std::size_t tets_in_block = 1 << 12, points_in_block = 1 << 8;
+constexpr std::size_t points_in_block = 1 << 8;
 
 Box box_at(const Vec3 &p) { return {p, p}; }
 
@@ -27,10 +24,12 @@ bool find_weights(const MeshView &mesh, const Tet &t, const Vec3 &p, std::array<
   return barycentric(p, corner(0), corner(1), corner(2), corner(3), weights.data());
 }
 
-/// A tet that holds a point.
+/// Of the tets looked at that hold a point the one that holds it best, the lowest of those.
 struct Hit {
-  std::int32_t point, tet;
-  double depth;  ///< the least weight; 1 at a vertex, which nothing holds better than its own tets
+  std::int32_t tet = -1;            ///< -1: none does
+  double depth = -out_by_rounding;  ///< the least weight; 1 at a vertex, which nothing holds better than its own tets
+
+  bool is_last() const { return depth >= 1; }
 };
 
 /// Tets stream past a k-d tree of the points. Meshes number neighbouring tets alike, so a run of tets asks the tree
@@ -44,25 +43,26 @@ class PointTree {
     tree_.build(std::move(boxes), 8, job);
   }
 
-  /// The hits of the tets from `first` on that have these boxes.
+  /// The tets from `first` on have these boxes. hits: of each point.
   void find(std::size_t first, Span<const Box> boxes, Array<Hit> &hits) const {
     Box whole;
     for (const Box &box : boxes) whole.add(box);
     std::array<std::int32_t, enough> near;
     std::size_t found = 0;
     const bool too_many = tree_.any_overlap(whole, [&](std::int32_t i) {
+      if (hits[std::size_t(i)].is_last()) return false;
       if (found == enough) return true;
       near[found++] = i;
       return false;
     });
     if (!too_many) {
-      for (std::size_t k = 0; found && k < boxes.size(); k++) test(first + k, boxes[k], {near.data(), found}, hits);
+      for (std::size_t i = 0; i < found; i++) look_into(first, boxes, std::size_t(near[i]), hits);
     } else if (const std::size_t half = boxes.size() / 2; half > 0) {
       find(first, {boxes.data(), half}, hits);
       find(first + half, {boxes.data() + half, boxes.size() - half}, hits);
     } else {
       tree_.any_overlap(whole, [&](std::int32_t i) {
-        add_hit(first, i, hits);
+        look_into(first, boxes, std::size_t(i), hits);
         return false;
       });
     }
@@ -71,17 +71,20 @@ class PointTree {
  private:
   static constexpr std::size_t enough = 8;
 
-  void test(std::size_t t, const Box &box, Span<const std::int32_t> near, Array<Hit> &hits) const {
-    for (std::int32_t i : near)
-      if (overlap(box, box_at(points_[std::size_t(i)]))) add_hit(t, i, hits);
+  void look_into(std::size_t first, Span<const Box> boxes, std::size_t point, Array<Hit> &hits) const {
+    const Box at = box_at(points_[point]);
+    Hit &best = hits[point];
+    for (std::size_t k = 0; k < boxes.size() && !best.is_last(); k++)
+      if (overlap(boxes[k], at)) look_into(first + k, points_[point], best);
   }
 
-  void add_hit(std::size_t t, std::int32_t i, Array<Hit> &hits) const {
+  void look_into(std::size_t t, const Vec3 &p, Hit &best) const {
     std::array<double, 4> w;
-    if (!find_weights(mesh_, mesh_.tets[t], points_[std::size_t(i)], w)) return;
+    if (!find_weights(mesh_, mesh_.tets[t], p, w)) return;
     const auto [least, most] = std::minmax({w[0], w[1], w[2], w[3]});
-    const bool vertex = least == 0 && most == 1;
-    if (least > -out_by_rounding) hits.push_back({i, std::int32_t(t), vertex ? 1 : std::min(least, most_of(t))});
+    if (!(least > -out_by_rounding)) return;
+    const double depth = least == 0 && most == 1 ? 1 : std::min(least, most_of(t));
+    if (depth > best.depth) best = {std::int32_t(t), depth};
   }
 
   double most_of(std::size_t t) const {
@@ -96,38 +99,30 @@ class PointTree {
   KdTree tree_;
 };
 
-/// Of each point the best one alone, the lowest of those: a vertex is held by all of its tets.
-void keep_best(Array<Hit> &hits) {
-  std::sort(hits.begin(), hits.end(), [](const Hit &a, const Hit &b) {
-    return std::make_tuple(a.point, -a.depth, a.tet) < std::make_tuple(b.point, -b.depth, b.tet);
-  });
-  const auto same_point = [](const Hit &a, const Hit &b) { return a.point == b.point; };
-  hits.erase(std::unique(hits.begin(), hits.end(), same_point), hits.end());
-}
-
-/// Of each point the tet that holds it best, the lowest of those; -1: none.
+/// Of each point the tet that holds it best, the lowest of those; -1: none. Each part of the tets has hits of its own.
 Array<std::int32_t> find_tets(const MeshView &mesh, Span<const Vec3> points, std::int64_t leaf, Job &job) {
+  constexpr std::size_t most_parts = 16, most_boxes = 1 << 12;  // for memory's sake
   const PointTree tree(mesh, points, job);
-  const std::size_t run = std::min(std::size_t(leaf), tets_in_block);
-  Array<Array<Hit>> hits((mesh.tets.size() + tets_in_block - 1) / tets_in_block, &job.memory);
-  job.parallel.for_blocks(mesh.tets.size(), tets_in_block, [&](std::size_t begin, std::size_t end) {
+  const std::size_t run = std::min(std::size_t(leaf), most_boxes);
+  const std::size_t size = mesh.tets.size() / std::min(std::size_t(job.parallel.threads()), most_parts) + 1;
+  Array<Array<Hit>> hits(mesh.tets.size() / size + 1, &job.memory);
+  job.parallel.for_blocks(mesh.tets.size(), size, [&](std::size_t begin, std::size_t end) {
+    hits[begin / size].resize(points.size());
     Array<Box> boxes(&job.memory);
-    boxes.reserve(end - begin);
-    for (std::size_t t = begin; t < end; t++) boxes.push_back(box_of(mesh.points, mesh.tets[t]));
-    Array<Hit> all(&job.memory);
-    for (std::size_t k = 0; k < boxes.size(); k += run)
-      tree.find(begin + k, {boxes.data() + k, std::min(run, boxes.size() - k)}, all);
-    keep_best(all);
-    hits[begin / tets_in_block].assign(all.begin(), all.end());
-    job.poll(0.5 * double(end) / double(mesh.tets.size()));
+    for (std::size_t t = begin; t < end; t += boxes.size()) {
+      boxes.clear();
+      for (std::size_t k = t; k < std::min(end, t + run); k++) boxes.push_back(box_of(mesh.points, mesh.tets[k]));
+      tree.find(t, {boxes.data(), boxes.size()}, hits[begin / size]);
+      job.poll(0.5 * double(t - begin) / double(end - begin));
+    }
   });
   Array<std::int32_t> tets(points.size(), -1, &job.memory);
   Array<double> depth(points.size(), -out_by_rounding, &job.memory);
-  for (const Array<Hit> &block : hits)
-    for (const Hit &hit : block)
-      if (const auto i = std::size_t(hit.point); hit.depth > depth[i]) {
-        depth[i] = hit.depth;
-        tets[i] = hit.tet;
+  for (const Array<Hit> &part : hits)
+    for (std::size_t i = 0; i < part.size(); i++)
+      if (part[i].depth > depth[i]) {
+        depth[i] = part[i].depth;
+        tets[i] = part[i].tet;
       }
   return tets;
 }

@@ -106,7 +106,7 @@ TEST_F(Fields, TheStencilNeedsTheHolesOfItsRun) {
   EXPECT_EQ(tetlod_transfer(context.get(), &from, &to), TETLOD_OK) << "other values there are the stencil's own matter";
 }
 
-/// What is located is kept once, not for each of the tets that a vertex has.
+/// A vertex is held by one tet, not by all that it is a corner of.
 TEST_F(Fields, PointsThatAreLocatedTakeLittleMemory) {
   cube = Cube(22);
   const auto field = field_of(cube, 1, bent);
@@ -125,7 +125,7 @@ TEST_F(Fields, PointsThatAreLocatedTakeLittleMemory) {
   const double bare = peak_of_run();
   submit(context.get(), cube);
   ASSERT_EQ(carry("bent", field, 1), TETLOD_OK);
-  EXPECT_LT(peak_of_run(), 1.4 * bare) << "1.74 with a hit for each tet";
+  EXPECT_LT(peak_of_run(), 1.4 * bare) << "1.74 if by all";
 }
 
 /// The estimate counts what rides along, and a limit below it is met by a status.
