@@ -1,7 +1,6 @@
 #include "arguments.hpp"
 
 #include <cinttypes>
-#include <cstdlib>
 #include <limits>
 
 namespace tetlod::capi {
@@ -121,21 +120,24 @@ void require_apart(const StridedArray &array, const Shape &shape) {
   }
 }
 
+std::int64_t address(const StridedArray &array, int component) {
+  return std::int64_t(reinterpret_cast<std::uintptr_t>(array.data)) + component * array.component_stride;
+}
+
 /// Whether some byte between the first and the last of one is between those of the other.
 bool reach_each_other(const StridedArray &a, const StridedArray &b) {
   const Reach of_a = reach_of(a), of_b = reach_of(b);
-  const auto at_a = std::int64_t(a.data), at_b = std::int64_t(b.data);
-  return at_a - of_a.before < at_b + of_b.beyond && at_b - of_b.before < at_a + of_a.beyond;
+  const std::int64_t way = address(b, 0) - address(a, 0);
+  return way < of_a.beyond + of_b.before && -way < of_b.beyond + of_a.before;
 }
 
 /// With one tuple stride for both: components are apart in each period of it.
 bool are_interleaved(const StridedArray &a, const StridedArray &b) {
-  const std::int64_t period = std::abs(a.tuple_stride);
-  if (period != std::abs(b.tuple_stride)) return false;
+  const std::int64_t period = a.tuple_stride;
+  if (period != b.tuple_stride || period < 0) return false;
   for (int i = 0; i < a.components; i++)
     for (int j = 0; j < b.components; j++) {
-      const std::int64_t way = (b.data + j * b.component_stride) - (a.data + i * a.component_stride);
-      const std::int64_t rest = (way % period + period) % period;
+      const std::int64_t rest = ((address(b, j) - address(a, i)) % period + period) % period;
       if (rest < std::int64_t(element_size(a.type)) || period - rest < std::int64_t(element_size(b.type))) return false;
     }
   return true;

@@ -196,7 +196,9 @@ tetlod_status tetlod_transfer(tetlod_context *handle, const tetlod_array *origin
     if (from.tuples != result.report.points_in)
       fail(Status::argument, "original: %" PRId64 " tuples, the original mesh has %" PRId64 " points", from.tuples,
            result.report.points_in);
-    require_memory_of_its_own(to, "simplified", from, "original");
+    StridedArray written = to;
+    written.tuples = std::int64_t(result.mesh.points.size());
+    require_memory_of_its_own(written, "simplified", from, "original");
     const Stencil &stencil = stencil_of(context);
     begin(context);
     Job job(context.memory, context.parallel);  // not one that can be cancelled: half a field is none

@@ -46,7 +46,7 @@ TEST_F(Fields, TransferTakesMemoryOfItsOwn) {
   tetlod_array to = from;
   for (const std::ptrdiff_t shift : {0, 2, 4}) {
     to.data = pairs.data() + shift;
-    to.tuples = std::int64_t(points()) - shift / 2;
+    to.tuples = std::int64_t(points()) - shift / 2;  // of which what is beyond the result's points is left alone
     expect_failure(tetlod_transfer(context.get(), &from, &to), TETLOD_ERR_ARGUMENT, "simplified: shares memory");
   }
   to = array_of(TETLOD_FLOAT64, points(), 1, pairs.data() + 1);
