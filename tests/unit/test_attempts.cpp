@@ -58,6 +58,17 @@ TEST(Attempts, TheBestHasTheLeastOfAll) {
   EXPECT_LT(score_of(usual, report), score);
 }
 
+TEST(Attempts, ErrorsThatAreNextToNoneCountLessThanTheBoundary) {
+  Host host;
+  RefineReport usual(host.memory);
+  usual.mean_square = 1e-10;
+  usual.outside = 0.2;
+  RefineReport other = usual;
+  other.mean_square /= 4;
+  other.outside *= 1.3;
+  EXPECT_GT(score_of(other, Report()), score_of(usual, Report()));
+}
+
 /// What a run would give without further attempts.
 class FirstAttempt : public Beginning {
  public:
