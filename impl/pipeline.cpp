@@ -96,9 +96,9 @@ class Pipeline : private Beginning {
     if (collapses_edges(options_, report_)) {
       bool reached = collapse_edges(false, coarse);
       ladder_ = coarse.is_sound ? Ladder::first_rung : Ladder::whole;
-      if (!reached && may_remesh(coarse)) reached = remesh_to_target(worker, coarse.is_sound);
+      if (!reached && may_remesh(coarse)) reached = remesh_to_target(worker);
       if (!reached && coarse.is_sound && options_.max_error == 0) collapse_edges(true, coarse);
-    } else if (!remesh_to_target(worker, false)) {
+    } else if (!remesh_to_target(worker)) {
       if (options_.clean_edges == 0)
         collapse_edges(true, coarse);
       else if (job_.log && !mesh_.tets.empty())
@@ -146,13 +146,13 @@ class Pipeline : private Beginning {
 
   /// False: to too many tets, or, as TetGen finds no way, to none; nor where the boundary has no volume left as doubles
   /// round, if collapses have a result.
-  bool remesh_to_target(Worker &worker, bool has_collapsed) {
+  bool remesh_to_target(Worker &worker) {
     decimate_and_sample();
     try {
       simplify(worker);
       meet_target(worker);
     } catch (const Error &error) {
-      const bool is_flat = error.status() == Status::mesh_degenerate;
+      const bool is_flat = error.status() == Status::mesh_degenerate, has_collapsed = ladder_ == Ladder::first_rung;
       if (error.status() != Status::remesh && !(is_flat && has_collapsed)) throw;
       return false;
     }

@@ -115,11 +115,8 @@ TEST_F(Fields, PointsThatAreLocatedTakeLittleMemory) {
   ASSERT_EQ(tetlod_set_real(context.get(), TETLOD_OPT_RHO, 0.001), TETLOD_OK);
   const auto peak_of_run = [&] {
     run();
-    tetlod_run_report report{};
-    report.struct_size = sizeof report;
-    EXPECT_EQ(tetlod_fetch_report(context.get(), &report), TETLOD_OK);
     EXPECT_EQ(tetlod_clear(context.get()), TETLOD_OK);
-    return double(report.peak_bytes);
+    return double(report_of(context.get()).peak_bytes);
   };
   submit(context.get(), cube);
   const double bare = peak_of_run();
