@@ -28,11 +28,11 @@ inline Span<const double> weights_of_attempts(const Budget &budget, const Option
 
 /// The error counts, as a part of the range, and a little what planes that weigh less cost: the boundary's distance,
 /// and vertices outside of it. By experience.
-inline double score_of(const RefineReport &refined, const Report &report) {
+inline double score_of(const RefineReport &refined, double range, const Report &report) {
   constexpr double usual_error = 0.0002, usual_deviation = 0.002, power_of_deviation = 0.2, usual_outside = 0.05,
                    power_of_outside = 0.3;
-  return (std::sqrt(refined.mean_square) + usual_error) *
-         std::pow(report.max_deviation + usual_deviation, power_of_deviation) *
+  const double error = range > 0 ? std::sqrt(refined.mean_square) / range : 0;
+  return (error + usual_error) * std::pow(report.max_deviation + usual_deviation, power_of_deviation) *
          std::pow(refined.outside + usual_outside, power_of_outside);
 }
 

@@ -268,7 +268,8 @@ class Pipeline : private Beginning {
     // A bound is looked for all the same: the sides of a slit may be nearer than weights are rounded by.
     if (bound > 0 || !is_original) refined = tetlod::refine(original_.view, options, job_, mesh_);
     describe_refinement(refined, original_, report_);
-    score_ = meets_size(budget_, mesh_) ? score_of(refined, report_) : std::numeric_limits<double>::infinity();
+    score_ = meets_size(budget_, mesh_) ? score_of(refined, original_.range, report_)
+                                        : std::numeric_limits<double>::infinity();
     beyond_ = std::move(refined.beyond_bound);
   }
 

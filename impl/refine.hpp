@@ -33,7 +33,7 @@ struct RefineReport {
   std::int64_t removed_samples = 0, removed_steiner = 0;
   Array<std::int32_t> beyond_bound;  ///< original vertices where the bound could not be held
   double max_error = 0;    ///< at the original vertices; those farther outside than by rounding with a bound alone
-  double mean_square = 0;  ///< of the errors at the probes
+  double mean_square = 0;  ///< of the errors at the probes, in the scalars' unit
   double outside = 0;      ///< share of the original vertices, without a bound
   double deviation = 0;    ///< of the new vertices of the boundary from the original's
 };

@@ -47,15 +47,15 @@ TEST(Attempts, TheBestHasTheLeastOfAll) {
   usual.outside = 0.2;
   Report report;
   report.max_deviation = 0.01;
-  const double score = score_of(usual, report);
+  const double score = score_of(usual, 1, report);
   RefineReport other = usual;
   other.mean_square *= 0.9;
-  EXPECT_LT(score_of(other, report), score);
+  EXPECT_LT(score_of(other, 1, report), score);
   other = usual;
   other.outside *= 0.9;
-  EXPECT_LT(score_of(other, report), score);
+  EXPECT_LT(score_of(other, 1, report), score);
   report.max_deviation *= 0.9;
-  EXPECT_LT(score_of(usual, report), score);
+  EXPECT_LT(score_of(usual, 1, report), score);
 }
 
 TEST(Attempts, ErrorsThatAreNextToNoneCountLessThanTheBoundary) {
@@ -66,7 +66,17 @@ TEST(Attempts, ErrorsThatAreNextToNoneCountLessThanTheBoundary) {
   RefineReport other = usual;
   other.mean_square /= 4;
   other.outside *= 1.3;
-  EXPECT_GT(score_of(other, Report()), score_of(usual, Report()));
+  EXPECT_GT(score_of(other, 1, Report()), score_of(usual, 1, Report()));
+}
+
+TEST(Attempts, CountErrorsAsPartsOfTheRange) {
+  Host host;
+  RefineReport refined(host.memory), in_another_unit(host.memory);
+  refined.mean_square = 1e-8;
+  in_another_unit.mean_square = 1e-8 * 1024 * 1024;
+  EXPECT_EQ(score_of(in_another_unit, 2048, Report()), score_of(refined, 2, Report()));
+  RefineReport constant(host.memory);
+  EXPECT_LT(score_of(constant, 0, Report()), score_of(refined, 2, Report()));
 }
 
 /// What a run would give without further attempts.
@@ -122,6 +132,25 @@ TEST_F(Attempted, IsMoreAccurateThanTheFirst) {
     }
   }
   EXPECT_LT(better / double(cells.size() * ratios.size()), std::log(0.95));
+}
+
+/// By a power of two, which rounds nothing.
+TEST_F(Attempted, IsTheSameInAnotherUnitOfTheValues) {
+  Mesh original = kuhn_cube(8);
+  transform(original,
+            [](const Vec3 &p) { return p + 0.04 * glm::sin(Vec3(6 * p.y + 4 * p.z, 6 * p.x, 4 * p.x + 8 * p.y)); });
+  options.target_ratio = 0.1;
+  Mesh first;
+  for (const double unit : {1.0, 0x1p-12, 0x1p12}) {
+    set_scalars(original, [unit](const Vec3 &p) { return unit * std::sin(2.4 * p.x); });
+    simplify(original);
+    Mesh other = copy_of_result();
+    for (double &value : other.scalars) value /= unit;
+    if (unit == 1) first = other;
+    EXPECT_EQ(other.points, first.points) << unit;
+    EXPECT_EQ(other.tets, first.tets) << unit;
+    EXPECT_EQ(other.scalars, first.scalars) << unit;
+  }
 }
 
 }  // namespace
