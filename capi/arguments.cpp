@@ -128,17 +128,22 @@ std::int64_t address(const StridedArray &array, int component) {
 bool reach_each_other(const StridedArray &a, const StridedArray &b) {
   const Reach of_a = reach_of(a), of_b = reach_of(b);
   const std::int64_t way = address(b, 0) - address(a, 0);
-  return way < of_a.beyond + of_b.before && -way < of_b.beyond + of_a.before;
+  return way < of_a.beyond - of_b.before && -way < of_b.beyond - of_a.before;
 }
 
-/// With one tuple stride for both: components are apart in each period of it.
+/// Below zero, where every stride has one.
+std::int64_t minus_length(std::int64_t stride) { return stride < 0 ? stride : -stride; }
+
+/// With one tuple stride for both, to and fro: components are apart in each period of it.
 bool are_interleaved(const StridedArray &a, const StridedArray &b) {
-  const std::int64_t period = a.tuple_stride;
-  if (period != b.tuple_stride || period < 0) return false;
+  const std::int64_t minus_period = minus_length(a.tuple_stride);
+  if (minus_period != minus_length(b.tuple_stride)) return false;
   for (int i = 0; i < a.components; i++)
     for (int j = 0; j < b.components; j++) {
-      const std::int64_t rest = ((address(b, j) - address(a, i)) % period + period) % period;
-      if (rest < std::int64_t(element_size(a.type)) || period - rest < std::int64_t(element_size(b.type))) return false;
+      std::int64_t rest = (address(b, j) - address(a, i)) % minus_period;
+      if (rest < 0) rest -= minus_period;
+      if (rest < std::int64_t(element_size(a.type)) || minus_period + rest > -std::int64_t(element_size(b.type)))
+        return false;
     }
   return true;
 }

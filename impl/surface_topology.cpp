@@ -98,8 +98,8 @@ class TopologyFinder {
       fail(Status::mesh_nonmanifold, "%zu boundary faces meet at the edge from vertex %lld to vertex %lld", end - begin,
            numbers_.vertex(low_end(sorted_[begin].id)), numbers_.vertex(sorted_[begin].high));
     out_.nonmanifold_edges++;
-    out_.touching[std::size_t(low_end(sorted_[begin].id))] = 1;
-    out_.touching[std::size_t(sorted_[begin].high)] = 1;
+    for (const std::int32_t end_of_edge : {low_end(sorted_[begin].id), sorted_[begin].high})
+      out_.touching[std::size_t(end_of_edge)] |= at_nonmanifold_edge;
     sort_by_angle(begin, end);
     // Material lies before a triangle whose half-edge runs up, and behind one whose half-edge runs down.
     const std::size_t first = from(sorted_[begin].id) > to(sorted_[begin].id) ? begin : begin + 1;
@@ -161,7 +161,7 @@ class TopologyFinder {
       std::uint8_t &count = sheets[std::size_t(v)];
       out_.used_points += count == 0;
       out_.nonmanifold_points += count == 1;
-      if (count == 1) out_.touching[std::size_t(v)] = 1;
+      if (count == 1) out_.touching[std::size_t(v)] |= cut_apart;
       count = std::uint8_t(std::min(count + 1, 2));
       // The corner of the next triangle around the vertex begins where the mate of the edge that arrives here begins.
       for (auto at = std::int32_t(c); out_.sheet_vertex[std::size_t(at)] < 0;

@@ -8,6 +8,10 @@
 
 namespace tetlod {
 
+/// Of a point where the surface touches itself: it is an end of an edge with four triangles or more; the cut takes it
+/// apart.
+constexpr std::uint8_t at_nonmanifold_edge = 1, cut_apart = 2;
+
 /// The surface cut apart where it touches itself. Half-edge 3 t + k runs from corner k of triangle t to corner k + 1.
 struct SurfaceTopology {
   explicit SurfaceTopology(Memory &memory)
@@ -16,7 +20,7 @@ struct SurfaceTopology {
   Array<std::int32_t> mate;  ///< of each half-edge: the one that runs the other way in the neighbouring triangle
   Array<std::int32_t> sheet_vertex;  ///< of each corner 3 t + k: the vertex of the cut surface that it is
   Array<std::int32_t> vertex_of;     ///< of each vertex of the cut surface: the surface's vertex
-  Array<std::uint8_t> touching;      ///< of each point of the surface: the surface touches itself there
+  Array<std::uint8_t> touching;      ///< of each point of the surface: how it touches itself there, or 0
 
   Array<std::int32_t> component;  ///< of each triangle: the number of its component
 

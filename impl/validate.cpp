@@ -213,20 +213,21 @@ class Inspector {
       SurfaceTopology topology(job_.memory);
       find_topology(surface.points, surface.triangles, job_, topology, {base_, surface.origin, {}});
       found_.components = topology.components;
-      found_.nonmanifold_edges = {topology.nonmanifold_edges, -1};
-      found_.nonmanifold_points = {topology.nonmanifold_points, -1};
-      name_first_touching(surface, topology);
+      found_.nonmanifold_edges = {topology.nonmanifold_edges, first_touching(surface, topology, at_nonmanifold_edge)};
+      found_.nonmanifold_points = {topology.nonmanifold_points, first_touching(surface, topology, cut_apart)};
     } catch (const Error &error) {
       if (!blames_the_mesh(error)) throw;
     }
   }
 
-  void name_first_touching(const Surface &surface, const SurfaceTopology &topology) {
+  /// In that way; -1: none does.
+  std::int64_t first_touching(const Surface &surface, const SurfaceTopology &topology, std::uint8_t way) const {
     std::int64_t first = -1;
-    for (std::size_t i = 0; i < surface.points.size(); i++)
-      if (topology.touching[i] && (first < 0 || surface.origin[i] + base_ < first)) first = surface.origin[i] + base_;
-    if (found_.nonmanifold_edges.count) found_.nonmanifold_edges.first = first;
-    if (found_.nonmanifold_points.count) found_.nonmanifold_points.first = first;
+    for (std::size_t i = 0; i < surface.points.size(); i++) {
+      const std::int64_t vertex = surface.origin[i] + base_;
+      if ((topology.touching[i] & way) != 0 && (first < 0 || vertex < first)) first = vertex;
+    }
+    return first;
   }
 
   const Input &input_;

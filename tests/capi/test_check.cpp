@@ -187,18 +187,36 @@ TEST(Check, CountsFacesWithThreeTets) {
   EXPECT_EQ(tetlod_run(context.get()), TETLOD_ERR_MESH_NONMANIFOLD);
 }
 
-TEST(Check, CountsWhereTheSolidTouchesItself) {
-  Cube cube(2);  // two cells that have one edge in common
+/// Some cells of a cube of 2 x 2 x 2.
+tetlod_mesh_report check_cells(std::initializer_list<std::size_t> cells) {
+  Cube cube(2);
   std::vector<std::int32_t> kept;
-  for (std::size_t cell : {0u, 3u}) kept.insert(kept.end(), &cube.corners[24 * cell], &cube.corners[24 * cell] + 24);
+  for (std::size_t cell : cells) kept.insert(kept.end(), &cube.corners[24 * cell], &cube.corners[24 * cell] + 24);
   cube.corners = kept;
   const Context context = make_context();
   submit(context.get(), cube);
-  const tetlod_mesh_report report = check(context.get());
+  return check(context.get());
+}
+
+TEST(Check, CountsWhereTheSolidTouchesItself) {
+  const tetlod_mesh_report report = check_cells({0, 3});  // they have one edge in common
   EXPECT_EQ(report.nonmanifold_edges.count, 1);
   EXPECT_EQ(report.nonmanifold_points.count, 2);
   EXPECT_EQ(report.components, 2);
   EXPECT_EQ(report.status, TETLOD_OK);
+}
+
+TEST(Check, NamesAPointOfAnEdgeAndOneThatIsCutApart) {
+  const tetlod_mesh_report on_a_plate = check_cells({0, 1, 2, 3, 4, 7});  // two cells that touch, above four
+  EXPECT_EQ(on_a_plate.nonmanifold_edges.count, 1);
+  EXPECT_EQ(on_a_plate.nonmanifold_edges.first, 13);
+  EXPECT_EQ(on_a_plate.nonmanifold_points.count, 1);
+  EXPECT_EQ(on_a_plate.nonmanifold_points.first, 22);
+  const tetlod_mesh_report at_a_point = check_cells({0, 7});
+  EXPECT_EQ(at_a_point.nonmanifold_edges.count, 0);
+  EXPECT_EQ(at_a_point.nonmanifold_edges.first, -1);
+  EXPECT_EQ(at_a_point.nonmanifold_points.count, 1);
+  EXPECT_EQ(at_a_point.nonmanifold_points.first, 13);
 }
 
 TEST(Check, NumbersFromTheIndexBase) {

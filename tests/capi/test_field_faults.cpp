@@ -1,4 +1,6 @@
 // Fields that ride along, where memory ends and threads differ.
+#include <set>
+
 #include "fields_fixture.hpp"
 
 namespace tetlod_test {
@@ -57,6 +59,40 @@ TEST_F(Fields, TransferTakesMemoryOfItsOwn) {
   const auto moved = move(field, 1);
   for (std::size_t i = 0; i < moved.size(); i++) EXPECT_EQ(pairs[2 * i + 1], moved[i]);
   for (std::size_t i = 0; i < field.size(); i++) EXPECT_EQ(pairs[2 * i], field[i]);
+}
+
+/// Forwards and backwards, beside each other and over each other.
+TEST_F(Fields, TransferKnowsItsMemoryWithAnyStrides) {
+  const auto field = field_of(cube, 1, bent);
+  run();
+  const auto moved = move(field, 1);
+  const auto step = std::ptrdiff_t(sizeof(double)), middle = 8 * std::ptrdiff_t(points());
+  int kept_apart = 0;
+  for (const std::ptrdiff_t stride : {1, -1, 2, -2})
+    for (const std::ptrdiff_t other : {stride, -stride, 3 * stride})
+      for (const std::ptrdiff_t shift : {0, 1, 2, 5, -1, -2, -5, int(points()), -int(points())}) {
+        std::vector<double> room(std::size_t(2 * middle + 1), -99);
+        double *const source = &room[std::size_t(middle)], *const place = source + shift;
+        std::set<const double *> read, written;
+        for (std::size_t i = 0; i < field.size(); i++) read.insert(source + stride * std::ptrdiff_t(i));
+        for (std::size_t i = 0; i < moved.size(); i++) written.insert(place + other * std::ptrdiff_t(i));
+        const bool shared =
+            std::any_of(written.begin(), written.end(), [&](const double *at) { return read.count(at); });
+        for (std::size_t i = 0; i < field.size(); i++) source[stride * std::ptrdiff_t(i)] = field[i];
+        tetlod_array from = array_of(TETLOD_FLOAT64, points(), 1, source);
+        tetlod_array to = array_of(TETLOD_FLOAT64, moved.size(), 1, place);
+        from.tuple_stride = stride * step;
+        to.tuple_stride = other * step;
+        const tetlod_status status = tetlod_transfer(context.get(), &from, &to);
+        const bool of_one_length = std::abs(stride) == std::abs(other);
+        EXPECT_TRUE(status == TETLOD_OK || shared || !of_one_length) << stride << ' ' << other << ' ' << shift;
+        EXPECT_EQ(status == TETLOD_OK && shared, false) << stride << ' ' << other << ' ' << shift;
+        if (status != TETLOD_OK) continue;
+        kept_apart++;
+        for (std::size_t i = 0; i < moved.size(); i++) ASSERT_EQ(place[other * std::ptrdiff_t(i)], moved[i]);
+        for (std::size_t i = 0; i < field.size(); i++) ASSERT_EQ(source[stride * std::ptrdiff_t(i)], field[i]);
+      }
+  EXPECT_GT(kept_apart, 20);
 }
 
 /// A solver that writes each step into other arrays, and lets another field steer from then on.
