@@ -29,10 +29,11 @@ bool is_bookkeeping(vtkDataSetAttributes &data, vtkAbstractArray *array) {
   return array == data.GetGlobalIds() || array == data.GetAbstractArray(vtkDataSetAttributes::GhostArrayName());
 }
 
-// The steering field is the result's active point scalars.
+// The steering field is the result's active point scalars; means of numbers number nothing.
 int attribute_of(vtkDataSetAttributes &data, int index, int32_t association) {
   const int attribute = data.IsArrayAnAttribute(index);
-  return association == TETLOD_POINT_FIELD && attribute == vtkDataSetAttributes::SCALARS ? -1 : attribute;
+  const bool is_lost = attribute == vtkDataSetAttributes::SCALARS || attribute == vtkDataSetAttributes::PEDIGREEIDS;
+  return association == TETLOD_POINT_FIELD && is_lost ? -1 : attribute;
 }
 
 // use(array, attribute) for each that is carried.
@@ -58,6 +59,11 @@ vtkSmartPointer<vtkDataArray> array_for(vtkDataArray &original, int type, int64_
   values->SetNumberOfTuples(tuples);
   describe_as(original, *values);
   return values;
+}
+
+// Means of integers are no integers.
+int type_of_means(vtkDataArray &original) {
+  return is_real(original.GetDataType()) ? original.GetDataType() : VTK_DOUBLE;
 }
 
 LentArray counted(vtkIdType count) {
@@ -101,9 +107,14 @@ void describe_as(vtkDataArray &original, vtkDataArray &result) {
   result.GetInformation()->Set(unit, original.GetInformation()->Get(unit));
 }
 
+int steering_type(const tetlod::Context &context, vtkDataArray &original) {
+  return context.get_real(TETLOD_OPT_MAX_ERROR) > 0 ? VTK_DOUBLE : type_of_means(original);
+}
+
 vtkSmartPointer<vtkDataArray> fetch_carried(const tetlod::Context &context, const CarriedArray &array, int64_t points) {
-  const int type = array.original->GetDataType();
-  auto fetched = array_for(*array.original, is_real(type) ? type : VTK_DOUBLE, points);
+  vtkDataArray &original = *array.original;
+  const int type = array.weight > 0 ? steering_type(context, original) : type_of_means(original);
+  auto fetched = array_for(original, type, points);
   fetch(context, array.key(), *fetched);
   return fetched;
 }

@@ -14,6 +14,9 @@
 
 namespace tetlod_vtk {
 
+// What the library knows an array of points by: fields of cells have names of their own.
+inline std::string key_of(const std::string &name) { return "point " + name; }
+
 // Of points.
 struct CarriedArray {
   vtkSmartPointer<vtkDataArray> original;  // the grid's
@@ -21,8 +24,7 @@ struct CarriedArray {
   LentArray reals;                         // what the library gets
   double weight = 0;                       // positive: it steers
 
-  // The library's fields have names of their own beside the scalars.
-  std::string key() const { return std::string("point ") + original->GetName(); }
+  std::string key() const { return key_of(original->GetName()); }
 };
 
 // Of cells: the library carries the numbers of the tets, once, and values are copied as they are.
@@ -49,6 +51,9 @@ CellArrays cell_arrays(vtkUnstructuredGrid &grid, vtkDataArray *steering, const 
 // Gives the result's array the original's unit and names of components. What else VTK has noted of an array is of its
 // values, such as their range; it depends on who asked for it before.
 void describe_as(vtkDataArray &original, vtkDataArray &result);
+
+// Of what steers, on a result: floats stay what they are, unless their rounding could pass a bound of the error.
+int steering_type(const tetlod::Context &context, vtkDataArray &original);
 
 // The array on the context's result.
 vtkSmartPointer<vtkDataArray> fetch_carried(const tetlod::Context &context, const CarriedArray &array, int64_t points);

@@ -66,9 +66,19 @@ std::string named(int type, vtkIdType count) {
   return std::to_string(count) + " cells of type " + std::to_string(type) + " (" + name + ")";
 }
 
+// Another part of the mesh has it, or nobody. VTK would remove such cells, too, but trusts the numbers of all cells
+// then.
+bool is_ghost(vtkUnsignedCharArray *ghosts, vtkIdType cell) {
+  constexpr int marks = vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::HIDDENCELL;
+  return ghosts != nullptr && (ghosts->GetValue(cell) & marks) != 0;
+}
+
+// Without ghosts.
 Counts count_types(vtkUnstructuredGrid &grid) {
   Counts counts;
-  for (vtkIdType c = 0; c < grid.GetNumberOfCells(); c++) counts[grid.GetCellType(c)]++;
+  vtkUnsignedCharArray *const ghosts = grid.GetCellGhostArray();
+  for (vtkIdType c = 0; c < grid.GetNumberOfCells(); c++)
+    if (!is_ghost(ghosts, c)) counts[grid.GetCellType(c)]++;
   return counts;
 }
 
@@ -103,12 +113,13 @@ void check_cell(vtkIdType cell, vtkIdType size, const vtkIdType *ids, vtkIdType 
                            ", which the mesh does not have");
 }
 
-// Calls use(type, ids, cell) for each cell with a volume.
+// Calls use(type, ids, cell) for each cell with a volume, ghosts apart.
 template <class Use>
 void for_each_solid(vtkUnstructuredGrid &grid, int corners_or_more, const Use &use) {
+  vtkUnsignedCharArray *const ghosts = grid.GetCellGhostArray();
   for (vtkIdType c = 0; c < grid.GetNumberOfCells(); c++) {
     const int type = grid.GetCellType(c);
-    if (!is_solid(type)) continue;
+    if (!is_solid(type) || is_ghost(ghosts, c)) continue;
     vtkIdType size = 0;
     const vtkIdType *ids = nullptr;
     grid.GetCells()->GetCellAtId(c, size, ids);
@@ -171,7 +182,8 @@ vtkSmartPointer<vtkUnstructuredGrid> corner_grid(vtkUnstructuredGrid &grid) {
 
 bool holds_tets_alone(vtkUnstructuredGrid &grid) {
   const Counts counts = count_types(grid);
-  return counts.size() == 1 && counts.begin()->first == VTK_TETRA && grid.GetCells()->IsHomogeneous() == 4;
+  const auto tets = counts.find(VTK_TETRA);
+  return tets != counts.end() && tets->second == grid.GetNumberOfCells() && grid.GetCells()->IsHomogeneous() == 4;
 }
 
 vtkDataArray *cell_numbers(vtkUnstructuredGrid &grid) { return grid.GetCellData()->GetArray(kCellNumbers); }

@@ -19,7 +19,8 @@ struct Tets {
 //   quadratic tets    eight tets each, when all volume cells are such;
 //   other cells       by their corners: hexahedra, voxels, wedges, pyramids are split so that neighbours fit; of
 //                     quadratic and higher cells the points between the corners are left out (a note says so);
-//   surfaces, lines   are left out (a note says so).
+//   surfaces, lines   are left out (a note says so);
+//   ghosts            are left out: duplicate and hidden cells. Points that they alone have stay, unused.
 // Throws std::runtime_error for polyhedra and other cells, and names them.
 Tets tets_of(vtkUnstructuredGrid &grid, std::vector<std::string> &notes);
 

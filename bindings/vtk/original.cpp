@@ -12,13 +12,15 @@
 namespace tetlod_vtk {
 namespace {
 
-// A shallow copy where ghost cells have to be left out.
-vtkSmartPointer<vtkUnstructuredGrid> without_ghosts(vtkUnstructuredGrid *input) {
-  if (!input->GetCellData()->HasArray(vtkDataSetAttributes::GhostArrayName())) return input;
-  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
-  grid->ShallowCopy(input);
-  grid->RemoveGhostCells();
-  return grid;
+// VTK's readers take a file's word for it.
+void require_tuples(vtkDataSetAttributes &data, vtkIdType count, const std::string &what) {
+  for (int i = 0; i < data.GetNumberOfArrays(); i++) {
+    vtkAbstractArray *const array = data.GetAbstractArray(i);
+    const std::string name = array->GetName() != nullptr ? array->GetName() : "";
+    if (const vtkIdType tuples = array->GetNumberOfTuples(); tuples != count)
+      throw std::runtime_error("array '" + name + "': " + std::to_string(tuples) + " tuples for " +
+                               std::to_string(count) + " " + what);
+  }
 }
 
 // The name that SetInputArrayToProcess was given; empty: none.
@@ -41,6 +43,14 @@ vtkUnsignedCharArray *flags_array(vtkUnstructuredGrid &grid, vtkInformation *wan
   if (flags == nullptr || flags->GetNumberOfComponents() != 1)
     throw std::runtime_error("point flags '" + name + "' are not a point array of one unsigned char");
   return flags;
+}
+
+// One without a name gets one that no other has.
+std::string name_of(vtkDataArray &field, vtkPointData &data) {
+  std::string name = field.GetName() != nullptr ? field.GetName() : "";
+  if (!name.empty()) return name;
+  for (name = "scalars"; data.HasArray(name.c_str());) name += "_";
+  return name;
 }
 
 // The array of others that steers, too.
@@ -81,7 +91,9 @@ void submit_other(tetlod::Context &context, const CarriedArray &other) {
 Original original_of(vtkUnstructuredGrid *input, vtkInformation *steering, const std::vector<WeightedArray> &further,
                      vtkInformation *flags, std::vector<std::string> &notes) {
   Original original;
-  original.grid = without_ghosts(input);
+  original.grid = input;
+  require_tuples(*input->GetPointData(), input->GetNumberOfPoints(), "points");
+  require_tuples(*input->GetCellData(), input->GetNumberOfCells(), "cells");
   vtkDataArray *field = steering_array(*original.grid, steering);
   original.flags = flags_array(*original.grid, flags);
   original.tets = tets_of(*original.grid, notes);  // first: VTK's triangulation may move what it shares with the grid
@@ -89,7 +101,7 @@ Original original_of(vtkUnstructuredGrid *input, vtkInformation *steering, const
   original.points = lend_points(original.grid->GetPoints()->GetData());
   original.arrays.points = original.grid->GetPoints()->GetData();
   original.arrays.steering = field;
-  original.arrays.name = field->GetName() != nullptr ? field->GetName() : "scalars";
+  original.arrays.name = name_of(*field, *original.grid->GetPointData());
   original.arrays.others = carried_arrays(*original.grid, field, notes);
   original.arrays.of_cells = cell_arrays(*original.grid, field, original.tets, notes);
   for (const WeightedArray &array : further)
@@ -101,7 +113,7 @@ void submit(tetlod::Context &context, const Original &original) {
   const tetlod_array corners = room_in(original.tets.corners, 4);
   submit_points(context, original);
   require(tetlod_submit_tets(context.get(), &corners, 0), context);
-  require(tetlod_submit_scalars(context.get(), original.arrays.name.c_str(), &original.values.array), context);
+  require(tetlod_submit_scalars(context.get(), key_of(original.arrays.name).c_str(), &original.values.array), context);
   for (const CarriedArray &other : original.arrays.others) submit_other(context, other);
   if (const LentArray &numbers = original.arrays.of_cells.numbers; numbers.keeper != nullptr)
     require(tetlod_submit_field(context.get(), kTetNumbers, TETLOD_CELL_FIELD, &numbers.array), context);

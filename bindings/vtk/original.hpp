@@ -18,8 +18,8 @@ class vtkInformation;
 namespace tetlod_vtk {
 
 struct Original {
-  vtkSmartPointer<vtkUnstructuredGrid> grid;  // without ghost cells
-  LentArray points;                           // without a keeper: the grid's are separate x, y and z
+  vtkSmartPointer<vtkUnstructuredGrid> grid;
+  LentArray points;  // without a keeper: the grid's are separate x, y and z
   LentArray values;
   Tets tets;
   vtkSmartPointer<vtkUnsignedCharArray> flags;  // may be null

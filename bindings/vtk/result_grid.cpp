@@ -36,8 +36,7 @@ void fill_tets(const tetlod::Context &context, vtkIdType count, vtkUnstructuredG
 
 void fill_scalars(const tetlod::Context &context, const OriginalArrays &arrays, vtkIdType count,
                   vtkUnstructuredGrid &grid) {
-  const int type = arrays.steering->GetDataType();
-  auto values = vtk::TakeSmartPointer(vtkDataArray::CreateDataArray(is_real(type) ? type : VTK_DOUBLE));
+  auto values = vtk::TakeSmartPointer(vtkDataArray::CreateDataArray(steering_type(context, *arrays.steering)));
   values->SetName(arrays.name.c_str());
   values->SetNumberOfTuples(count);
   tetlod_array room = room_in(values, 1);

@@ -1,10 +1,13 @@
 #include "vtkTetlodSimplify.h"
 
-#include <vtkDemandDrivenPipeline.h>
+#include <vtkCellArray.h>
+#include <vtkCellType.h>
 #include <vtkErrorCode.h>
-#include <vtkInformation.h>
 #include <vtkInformationVector.h>
+#include <vtkNew.h>
 #include <vtkObjectFactory.h>
+#include <vtkPoints.h>
+#include <vtkTimeStamp.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
@@ -50,6 +53,13 @@ int32_t option_named(const char *name) {
   return option;
 }
 
+// VTK's writers take cells and points for granted, be there none of them.
+void make_empty(vtkUnstructuredGrid &grid) {
+  grid.Initialize();
+  grid.SetPoints(vtkNew<vtkPoints>());
+  grid.SetCells(VTK_TETRA, vtkNew<vtkCellArray>());
+}
+
 bool is_integer(int32_t option) { return tetlod::option_bounds(option).is_integer != 0; }
 
 }  // namespace
@@ -59,6 +69,8 @@ struct vtkTetlodSimplify::Internals {
   std::vector<tetlod_vtk::WeightedArray> steering;  // beside input array 0
   tetlod_error_report error{};
   double seconds_of_run = 0, seconds_of_measuring = 0;
+  bool aborted = false;  // the last execution
+  vtkTimeStamp since_abort;
 };
 
 vtkTetlodSimplify::vtkTetlodSimplify() : Inside(std::make_unique<Internals>()) {
@@ -215,13 +227,21 @@ void vtkTetlodSimplify::Execute(vtkUnstructuredGrid *input, vtkUnstructuredGrid 
   tetlod_vtk::fill_result(in.context, original.arrays, *output);
 }
 
-// An aborted execution generates no data, so that the next update runs again.
+// Newer than whatever was made since an abort, here and behind, so that the next update runs again.
+vtkMTimeType vtkTetlodSimplify::GetMTime() {
+  Internals &in = *this->Inside;
+  if (in.aborted) in.since_abort.Modified();
+  return std::max(this->Superclass::GetMTime(), in.since_abort.GetMTime());
+}
+
 int vtkTetlodSimplify::RequestData(vtkInformation *, vtkInformationVector **inputs, vtkInformationVector *outputs) {
   vtkUnstructuredGrid *input = vtkUnstructuredGrid::GetData(inputs[0]), *output = vtkUnstructuredGrid::GetData(outputs);
   Internals &in = *this->Inside;
   in.error = {};
   in.seconds_of_run = in.seconds_of_measuring = 0;
+  in.aborted = false;
   this->SetErrorCode(vtkErrorCode::NoError);
+  make_empty(*output);
   if (input == nullptr || input->GetNumberOfCells() == 0) return 1;
   tetlod_status status = TETLOD_ERR_ARGUMENT;
   std::string message;
@@ -234,12 +254,9 @@ int vtkTetlodSimplify::RequestData(vtkInformation *, vtkInformationVector **inpu
   } catch (const std::exception &error) {
     message = error.what();
   }
-  output->Initialize();
-  if (status == TETLOD_ERR_CANCELLED && this->GetAbortExecute() != 0) {
-    output->ReleaseData();
-    outputs->GetInformationObject(0)->Set(vtkDemandDrivenPipeline::DATA_NOT_GENERATED(), 1);
-    return 1;
-  }
+  make_empty(*output);
+  in.aborted = status == TETLOD_ERR_CANCELLED && this->GetAbortExecute() != 0;
+  if (in.aborted) return 1;
   this->Fail(status, message.c_str());
   return 0;
 }

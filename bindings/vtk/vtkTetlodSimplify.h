@@ -42,6 +42,9 @@ class VTKTETLOD_EXPORT vtkTetlodSimplify : public vtkUnstructuredGridAlgorithm {
   static vtkTetlodSimplify *New();
   vtkTypeMacro(vtkTetlodSimplify, vtkUnstructuredGridAlgorithm) void PrintSelf(ostream &os, vtkIndent indent) override;
 
+  /** After an abort the filter counts as changed, until it runs again. */
+  vtkMTimeType GetMTime() override;
+
   /**
    * Sets the other properties that a preset governs: as published, sized by Rho and Sigma (paper, the default), or
    * sized by TargetRatio, which becomes 0.1 where it and MaxError are 0 (fast, accurate).

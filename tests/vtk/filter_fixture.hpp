@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 #include <vtkCommand.h>
+#include <vtkDataObject.h>
+#include <vtkErrorCode.h>
 #include <vtkNew.h>
 #include <vtkSmartPointer.h>
 #include <vtkTetlodSimplify.h>
@@ -37,5 +39,51 @@ class Listener {
 // As the tool writes it.
 void write_grid(vtkUnstructuredGrid *grid, const std::string &path);
 std::string bytes_of(vtkUnstructuredGrid *grid);
+
+class Filter : public testing::Test {
+ protected:
+  // All boundary edges are kept: the cube stays a cube.
+  Filter() : listener(*filter) {
+    filter->SetInputData(cube_grid());
+    filter->SetSigma(1);
+  }
+  vtkUnstructuredGrid *updated() {
+    filter->Update();
+    return filter->GetOutput();
+  }
+  void expect_silence() {
+    EXPECT_TRUE(listener.errors.empty()) << listener.errors.front();
+    EXPECT_TRUE(listener.warnings.empty()) << listener.warnings.front();
+  }
+  void use_field(const char *name) {
+    filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name);
+  }
+  void expect_failure(const std::string &part, int status) {
+    EXPECT_EQ(updated()->GetNumberOfPoints(), 0);
+    EXPECT_EQ(filter->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::UserError + status));
+    EXPECT_TRUE(listener.heard(part)) << "'" << part
+                                      << "' is not in: " << (listener.errors.empty() ? "" : listener.errors.front());
+  }
+
+  vtkNew<vtkTetlodSimplify> filter;
+  Listener listener;
+};
+
+// Hears a filter's progress, and may end its executions.
+struct Watcher {
+  vtkTetlodSimplify *filter;
+  bool aborts;
+  std::vector<double> seen;
+  void on_progress(vtkObject *, unsigned long, void *) {
+    seen.push_back(filter->GetProgress());
+    if (aborts && seen.back() > 0) filter->AbortExecuteOn();
+  }
+};
+
+inline cli_test::Cube large_cube() {
+  cli_test::Cube cube;
+  cube.size = 18;  // long enough for some events
+  return cube;
+}
 
 }  // namespace vtk_test

@@ -26,35 +26,6 @@ namespace {
 using cli_test::Cube;
 using cli_test::Kind;
 
-class Filter : public testing::Test {
- protected:
-  // All boundary edges are kept: the cube stays a cube.
-  Filter() : listener(*filter) {
-    filter->SetInputData(cube_grid());
-    filter->SetSigma(1);
-  }
-  vtkUnstructuredGrid *updated() {
-    filter->Update();
-    return filter->GetOutput();
-  }
-  void expect_silence() {
-    EXPECT_TRUE(listener.errors.empty()) << listener.errors.front();
-    EXPECT_TRUE(listener.warnings.empty()) << listener.warnings.front();
-  }
-  void use_field(const char *name) {
-    filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name);
-  }
-  void expect_failure(const std::string &part, int status) {
-    EXPECT_EQ(updated()->GetNumberOfPoints(), 0);
-    EXPECT_EQ(filter->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::UserError + status));
-    EXPECT_TRUE(listener.heard(part)) << "'" << part
-                                      << "' is not in: " << (listener.errors.empty() ? "" : listener.errors.front());
-  }
-
-  vtkNew<vtkTetlodSimplify> filter;
-  Listener listener;
-};
-
 TEST_F(Filter, RunsAgainWhenAPropertyChangedAndOnlyThen) {
   const std::string first = bytes_of(updated());
   const vtkMTimeType then = filter->GetOutput()->GetMTime();
@@ -290,22 +261,6 @@ TEST_F(Filter, TheErrorIsMeasuredWhenAskedFor) {
   EXPECT_LE(filter->GetErrorRMS(), filter->GetErrorMaximum());
   EXPECT_EQ(filter->GetErrorOutside(), 0);
   EXPECT_GT(filter->GetSecondsOfRun(), 0);
-}
-
-struct Watcher {
-  vtkTetlodSimplify *filter;
-  bool aborts;
-  std::vector<double> seen;
-  void on_progress(vtkObject *, unsigned long, void *) {
-    seen.push_back(filter->GetProgress());
-    if (aborts && seen.back() > 0) filter->AbortExecuteOn();
-  }
-};
-
-Cube large_cube() {
-  Cube cube;
-  cube.size = 18;  // long enough for some events
-  return cube;
 }
 
 TEST_F(Filter, ProgressGoesForwards) {
