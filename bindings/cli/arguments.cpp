@@ -74,8 +74,10 @@ double within(const std::string &flag, int64_t value, const tetlod_bounds &bound
 // What is empty is mostly a variable of a script that was not set.
 std::string fault_if_empty(const std::string &text) { return text.empty() ? "an empty value" : ""; }
 
-// An integer that 64 bits do not hold; the conversion would take the nearest that they do.
-std::string fault_if_beyond_bits(const std::string &text) {
+// Of an integer. The conversion takes 010 for 8, and the nearest that 64 bits hold for what they do not.
+std::string fault_of_integer(const std::string &text) {
+  const std::size_t first = text.find_first_not_of("+-");
+  if (first < text.size() && text[first] == '0' && first + 1 < text.size()) return text + " begins with a 0";
   errno = 0;
   std::strtoll(text.c_str(), nullptr, 10);
   return errno == ERANGE ? text + " is out of range" : "";
@@ -89,7 +91,7 @@ void add_number(CLI::App &app, const NumberOption &option, Arguments &arguments)
     const auto store = [number, flag, bounds, &arguments](const int64_t &value) {
       arguments.numbers[number] = within(flag, value, bounds);
     };
-    app.add_option_function<int64_t>(flag, store, help)->type_name("N")->check(fault_if_beyond_bits);
+    app.add_option_function<int64_t>(flag, store, help)->type_name("N")->check(fault_of_integer);
   } else {
     const auto store = [number, &arguments](const double &value) { arguments.numbers[number] = value; };
     app.add_option_function<double>(flag, store, help)->type_name("X");

@@ -21,6 +21,16 @@ bool will_do(vtkXMLDataElement &piece, const char *count) {
   return text == nullptr || (piece.GetScalarAttribute(count, number) == 1 && 0 <= number && number <= kMost);
 }
 
+// Of points or cells, whose arrays are known by their names.
+bool holds_named_arrays(const std::string &element) {
+  return element == "PointData" || element == "CellData" || element == "PPointData" || element == "PCellData";
+}
+
+bool has_name(vtkXMLDataElement &array) {
+  const char *const name = array.GetAttribute("Name");
+  return name != nullptr && *name != 0;
+}
+
 // What is wrong with an array's declaration, or those inside of the element; empty: nothing.
 std::string wrong_array(vtkXMLDataElement &element) {
   constexpr vtkTypeInt64 most = 1 << 20;  // components
@@ -32,8 +42,11 @@ std::string wrong_array(vtkXMLDataElement &element) {
     return std::string("NumberOfComponents=\"") + components + "\" is no number of them";
   if (type != nullptr && std::strcmp(type, "String") == 0 && (name == "DataArray" || name == "PDataArray"))
     return name + " cannot be of type String";
-  for (int i = 0; i < element.GetNumberOfNestedElements(); i++)
-    if (const std::string wrong = wrong_array(*element.GetNestedElement(i)); !wrong.empty()) return wrong;
+  for (int i = 0; i < element.GetNumberOfNestedElements(); i++) {
+    vtkXMLDataElement &nested = *element.GetNestedElement(i);
+    if (holds_named_arrays(name) && !has_name(nested)) return "an array of " + name + " has no name";
+    if (const std::string wrong = wrong_array(nested); !wrong.empty()) return wrong;
+  }
   return {};
 }
 

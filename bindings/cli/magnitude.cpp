@@ -39,16 +39,14 @@ double magnitude_of(vtkDataArray &vectors, vtkIdType point) {
   return sum;
 }
 
-// Unless the file has it.
-std::string add_magnitude(vtkDataArray &vectors, vtkPointData &data) {
-  const std::string name = std::string(vectors.GetName()) + " magnitude";
-  if (data.HasArray(name.c_str())) return name;
+std::string name_of_magnitude(vtkDataArray &vectors) { return std::string(vectors.GetName()) + " magnitude"; }
+
+void add_magnitude(vtkDataArray &vectors, vtkPointData &data) {
   vtkNew<vtkDoubleArray> magnitudes;
-  magnitudes->SetName(name.c_str());
+  magnitudes->SetName(name_of_magnitude(vectors).c_str());
   magnitudes->SetNumberOfValues(vectors.GetNumberOfTuples());
   for (vtkIdType p = 0; p < vectors.GetNumberOfTuples(); p++) magnitudes->SetValue(p, magnitude_of(vectors, p));
   data.AddArray(magnitudes);
-  return name;
 }
 
 }  // namespace
@@ -58,8 +56,12 @@ std::string steering_name(const std::string &field, vtkUnstructuredGrid &grid, s
   vtkDataArray *vectors = data.GetArray(field.c_str());
   if (field.empty()) vectors = has_scalars(data) ? nullptr : first_vectors(data);
   if (!are_vectors(vectors)) return field;
-  notes.push_back(std::string("the vectors '") + vectors->GetName() + "' steer by their magnitude");
-  return add_magnitude(*vectors, data);
+  const std::string name = name_of_magnitude(*vectors);
+  const bool has_it = data.HasArray(name.c_str());  // as a file that the tool has written may
+  notes.push_back("the vectors '" + std::string(vectors->GetName()) + "' steer by " +
+                  (has_it ? "the file's array '" + name + "'" : "their magnitude"));
+  if (!has_it) add_magnitude(*vectors, data);
+  return name;
 }
 
 }  // namespace cli

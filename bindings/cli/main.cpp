@@ -71,7 +71,7 @@ void run(const Arguments &arguments) {
   bar.show("read", 0.0);
   const auto original = read_grid(arguments.input, *messages, notes);
   seconds.reading = watch.lap();
-  check_names(arguments.output, *original);
+  check_arrays(arguments.output, *original);
   stop_if_interrupted();
   vtkUnstructuredGrid *simplified = simplify(*filter, original, arguments, bar, *messages, notes);
   add_notes(*filter, arguments, notes);

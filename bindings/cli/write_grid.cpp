@@ -1,8 +1,8 @@
 #include "write_grid.hpp"
 
+#include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>
-#include <vtkDataSetAttributes.h>
 #include <vtkErrorCode.h>
 #include <vtkNew.h>
 #include <vtkSmartPointer.h>
@@ -64,19 +64,34 @@ void check_name(const std::string &path, const char *name) {
     throw Failure(path + ": a .vtu file cannot have the name '" + name + "' for an array or a component; .vtk can");
 }
 
-void check_names_of(const std::string &path, vtkDataArray *array) {
-  if (array == nullptr) return;
+void check_names_of(const std::string &path, vtkAbstractArray *array) {
   check_name(path, array->GetName());
   for (int i = 0; i < array->GetNumberOfComponents(); i++) check_name(path, array->GetComponentName(i));
 }
 
+// The writer loses all that follows several bits a cell, and what follows a blank in the name of colours.
+void check_cells_of_legacy(const std::string &path, vtkCellData &data) {
+  const auto refuse = [&](const char *name, const char *what) {
+    throw Failure(path + ": a .vtk file cannot have the array '" + name + "' of cells, " + what + "; .vtu can");
+  };
+  for (int i = 0; i < data.GetNumberOfArrays(); i++) {
+    vtkDataArray *const array = data.GetArray(i);
+    if (array == nullptr || array->GetName() == nullptr) continue;
+    const std::string name = array->GetName();
+    if (array->GetDataType() == VTK_BIT && array->GetNumberOfComponents() > 1)
+      refuse(name.c_str(), "several bits each");
+    const bool are_colours = array == data.GetScalars() && array->GetDataType() == VTK_UNSIGNED_CHAR;
+    if (are_colours && name.find_first_of(" \t") != std::string::npos) refuse(name.c_str(), "a blank in their name");
+  }
+}
+
 }  // namespace
 
-void check_names(const std::string &path, vtkUnstructuredGrid &grid) {
-  if (file_ending(path) == ".vtk") return;
-  for (int type : {vtkDataObject::POINT, vtkDataObject::CELL}) {
-    vtkDataSetAttributes &data = *grid.GetAttributes(type);
-    for (int i = 0; i < data.GetNumberOfArrays(); i++) check_names_of(path, data.GetArray(i));
+void check_arrays(const std::string &path, vtkUnstructuredGrid &grid) {
+  if (file_ending(path) == ".vtk") return check_cells_of_legacy(path, *grid.GetCellData());
+  for (int type : {vtkDataObject::POINT, vtkDataObject::CELL, vtkDataObject::FIELD}) {
+    vtkFieldData &data = *grid.GetAttributesAsFieldData(type);
+    for (int i = 0; i < data.GetNumberOfArrays(); i++) check_names_of(path, data.GetAbstractArray(i));
   }
 }
 

@@ -11,8 +11,8 @@
 
 namespace cli {
 
-// Throws Failure where an array's name would make the file unreadable.
-void check_names(const std::string &path, vtkUnstructuredGrid &grid);
+// Throws Failure where the format would lose an array or its name.
+void check_arrays(const std::string &path, vtkUnstructuredGrid &grid);
 
 // As .vtu or .vtk, by the path's ending. Throws Failure.
 void write_grid(const OutputFile &file, vtkUnstructuredGrid *grid, VtkMessages &messages,

@@ -122,4 +122,14 @@ void submit(tetlod::Context &context, const Original &original) {
   require(tetlod_submit_point_flags(context.get(), &flags), context);
 }
 
+void run(tetlod::Context &context, const Original &original) {
+  try {
+    context.run();
+  } catch (const tetlod::Error &error) {
+    const std::string message = error.what();
+    if (original.tets.cells == nullptr || message.find("tet ") == std::string::npos) throw;
+    throw tetlod::Error(error.status(), message + " (of the tets that the grid's solid cells are split into)");
+  }
+}
+
 }  // namespace tetlod_vtk

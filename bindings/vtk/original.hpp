@@ -40,4 +40,7 @@ Original original_of(vtkUnstructuredGrid *input, vtkInformation *steering, const
 // Throws tetlod::Error. The original must live until the context is cleared.
 void submit(tetlod::Context &context, const Original &original);
 
+// Throws tetlod::Error, which says so where tets are not numbered as the grid's cells.
+void run(tetlod::Context &context, const Original &original);
+
 }  // namespace tetlod_vtk

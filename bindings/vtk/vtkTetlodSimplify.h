@@ -14,17 +14,17 @@
  *     filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "density");
  *
  * unless told, the active scalars, else the first point array of one component. AddSteeringArray names others that
- * steer beside it. All other point and cell arrays of numbers, of up to
- * 64 components, ride along. Input array 1 may name a point array of
- * unsigned chars with the flags of tetlod.h (TETLOD_FLAG_KEEP, TETLOD_FLAG_LOCK).
+ * steer beside it; with MaxError all that steer come out as doubles. All other point and cell arrays of numbers, of up
+ * to 64 components, ride along, but for global ids and ghost marks. Input array 1 may name a point array of unsigned
+ * chars with the flags of tetlod.h (TETLOD_FLAG_KEEP, TETLOD_FLAG_LOCK).
  *
  * Arrays of floats or doubles are read in place, interleaved (AOS) or one component after another (SOA), as are 32 and
  * 64 bit connectivity; others are copied to doubles during the execution.
  *
  * What goes wrong is a vtkErrorMacro with tetlod's message, an empty output, and an ErrorCode of
- * vtkErrorCode::UserError + the tetlod_status. A property that is set beyond its bounds is such an error too, and keeps
- * its value. Progress events come every 5 to 50 ms; AbortExecuteOn() from an observer ends the run, which is no error:
- * the output is empty, and the next update runs again.
+ * vtkErrorCode::UserError + the tetlod_status; of several blocks, the code is of the last one. A property that is set
+ * beyond its bounds is such an error too, and keeps its value. Progress events come every 5 to 50 ms; AbortExecuteOn()
+ * from an observer ends the run, which is no error: the output is empty, and the next update runs again.
  */
 #ifndef vtkTetlodSimplify_h
 #define vtkTetlodSimplify_h

@@ -169,6 +169,8 @@ TEST_F(Files, VectorsSteerByTheirMagnitude) {
   expect_in(array_tag(out, "flow"), "NumberOfComponents=\"3\"");
   expect_in(array_tag(out, "flow magnitude"), "RangeMax=\"1\"");
   expect_in(run_tool({folder / "in.vtk", folder / "out.vtu", "--steer", "flow"}).err, "it is the first");
+  run(folder / "out.vtu", folder / "again.vtu", {"--field", "flow"});
+  expect_in(said.err, "note: the vectors 'flow' steer by the file's array 'flow magnitude'");
   cube.vectors_alone = false;
   run_on(cube);
   run(folder / "in.vtk", folder / "out.vtu", {"--steer", "flow:2"});
@@ -246,6 +248,46 @@ TEST_F(Files, AResultKeepsItsPermissionsAndMayHaveALongName) {
 TEST_F(Files, NothingIsLeftBesideTheResult) {
   run_on({});
   EXPECT_EQ(folder.names(), (std::vector<std::string>{"in.vtk", "out.vtu", "report.json"}));
+}
+
+// One tet in a legacy file, with data of the grid and of its cell.
+std::string one_tet(const std::string &of_grid, const std::string &of_cell) {
+  return "# vtk DataFile Version 4.2\none\nASCII\nDATASET UNSTRUCTURED_GRID\n" + of_grid +
+         "POINTS 4 double\n0 0 0 1 0 0 0 1 0 0 0 1\nCELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n"
+         "POINT_DATA 4\nSCALARS heat double 1\nLOOKUP_TABLE default\n0 1 2 3\n"
+         "CELL_DATA 1\nFIELD f 1\n" +
+         of_cell;
+}
+
+// What VTK's writers would lose without a word, or its readers take wrongly.
+TEST_F(Files, WhatAFormatLosesIsRefused) {
+  const std::string in = folder / "in.vtk", part = "part 1 1 int\n5\n";
+  const struct {
+    std::string text, out, message;
+  } cases[] = {
+      {one_tet("", "flags 2 1 bit\n1 0\n"), "out.vtk", "'flags' of cells, several bits each"},
+      {one_tet("", "few 1 0 int\n"), "out.vtu", "array 'few': 0 tuples for 1 cells"},
+      {one_tet("FIELD FieldData 1\nT%3C0 1 1 double\n7\n", part), "out.vtu", "cannot have the name 'T<0'"},
+  };
+  for (const auto &one : cases) {
+    std::ofstream(in) << one.text;
+    const Outcome refused = run_tool({in, folder / one.out, "--target-ratio", "1"});
+    EXPECT_EQ(refused.status, 1) << one.message;
+    expect_in(refused.err, one.message);
+    EXPECT_FALSE(std::filesystem::exists(folder / one.out));
+  }
+}
+
+TEST_F(Files, NamesThatAreMissingOrLost) {
+  const std::string in = folder / "in.vtk", between = folder / "between.vtu", out = folder / "out.vtk";
+  std::ofstream(in) << one_tet("", "my%20part 1 1 unsigned_char\n9\n");
+  ASSERT_EQ(run_tool({in, between, "--target-ratio", "1"}).status, 0);
+  std::string text = contents_of(between);
+  const std::string data = "<CellData", name = "Name=\"my part\"";
+  std::ofstream(between, std::ios::binary) << text.insert(text.find(data) + data.size(), " Scalars=\"my part\"");
+  expect_in(run_tool({between, out}).err, "'my part' of cells, a blank in their name");
+  std::ofstream(between, std::ios::binary) << text.replace(text.rfind(name), name.size(), "");
+  expect_in(run_tool({between, out}).err, "an array of CellData has no name");
 }
 
 }  // namespace

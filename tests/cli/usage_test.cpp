@@ -62,6 +62,8 @@ TEST_F(Usage, WrongCommandLines) {
   for (const char *option : {"--target-ratio", "--threads", "--field", "--report", "--pictures", "--on-flat"})
     expect_failure(run_tool({in, out, option, ""}), 2, option);
   expect_failure(run_tool({in, out, "--preset", "none-such"}), 2, "none-such");
+  for (const char *octal : {"010", "-08", "0x10"})
+    expect_failure(run_tool({in, out, "--threads", octal}), 2, std::string(octal) + " begins with a 0");
   expect_failure(run_tool({in, out, "--remesh", "0"}), 2, "--remesh 0 takes");
   expect_failure(run_tool({in, out, "--steer", "other:-1"}), 2, "field other: weight -1");
   expect_failure(run_tool({in, out, "--steer", "other:nan"}), 2, "field other: weight nan");

@@ -66,6 +66,21 @@ TEST_F(Filter, PointsKeepTheirNumbersBesideGhosts) {
   expect_failure("vertex 342", TETLOD_ERR_MESH_NONFINITE);
 }
 
+TEST_F(Filter, TetsThatAreNotTheGridsCellsAreSaidToBe) {
+  const Grid grid = cube_grid();
+  vtkNew<vtkIdList> corners;
+  grid->GetCellPoints(grid->GetNumberOfCells() - 1, corners);
+  corners->SetId(0, corners->GetId(1));
+  grid->GetCells()->ReplaceCellAtId(grid->GetNumberOfCells() - 1, corners);
+  filter->SetInputData(grid);
+  filter->RepairRepeatedOff();
+  expect_failure("tet 1295", TETLOD_ERR_MESH_DEGENERATE);
+  EXPECT_FALSE(listener.heard("split into"));
+  add_ghosts(*grid);
+  grid->Modified();
+  expect_failure("tet 647 (of the tets that the grid's solid cells are split into)", TETLOD_ERR_MESH_DEGENERATE);
+}
+
 // VTK's writer wants points and cells, be they none.
 TEST_F(Filter, WhatIsEmptyCanBeWritten) {
   filter->SetInputData(vtkNew<vtkUnstructuredGrid>());
