@@ -65,6 +65,7 @@ class Refinement {
     report_.mean_square = mesh_.total_error() / double(mesh_.probes.size() - mesh_.left_out);
     report_.outside = double(mesh_.vertices_left_out) / double(mesh_.vertex_probes);
     count_points();
+    if (options_.max_deviation > 0) look_between_new_vertices();
     write();
     return std::move(report_);
   }
@@ -146,13 +147,28 @@ class Refinement {
         report_.inserted += is_there;
         if (!is_there || !mesh_.fixed[v]) continue;
         report_.inserted_on_boundary++;
-        report_.deviation = std::max(report_.deviation, deviation_at(mesh_.points[v]));
+        look_at(mesh_.points[v]);
       } else if (!is_there) {
         (v < first_steiner ? report_.removed_samples : report_.removed_steiner)++;
       }
     }
   }
 
+  /// Middles of edges and triangles that were none before: a limit is held there, too.
+  void look_between_new_vertices() {
+    const auto is_new = [&](std::int32_t v) { return std::size_t(v) >= first_inserted_; };
+    for (std::size_t t = 0; t < mesh_.tets.size(); t++)
+      for (std::size_t k = 0; k < 4 && mesh_.alive(std::int32_t(t)); k++) {
+        const auto v = [&](int i) { return mesh_.tets[t][std::size_t(tet_face[k][i])]; };
+        if (mesh_.neighbours[t][k] >= 0 || !(is_new(v(0)) || is_new(v(1)) || is_new(v(2)))) continue;
+        const auto at = [&](int i) { return mesh_.points[std::size_t(v(i))]; };
+        look_at((at(0) + at(1) + at(2)) / 3.0);
+        for (int i = 0; i < 3; i++)
+          if (const int j = (i + 1) % 3; is_new(v(i)) || is_new(v(j))) look_at(0.5 * (at(i) + at(j)));
+      }
+  }
+
+  void look_at(const Vec3 &p) { report_.deviation = std::max(report_.deviation, deviation_at(p)); }
   /// From the original's boundary.
   double deviation_at(const Vec3 &p) const { return options_.boundary->get(job_).nearest(p).distance; }
 

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "deviation.hpp"
 #include "remesh_attempts.hpp"
 #include "whole_run.hpp"
 
@@ -238,6 +239,32 @@ TEST_F(WholeRun, WhatIsNoSolidIsRefused) {
   const Status of_flat = status(flat);
   EXPECT_TRUE(of_flat == Status::mesh_degenerate || of_flat == Status::mesh_empty) << int(of_flat);
   EXPECT_EQ(status(Mesh()), Status::mesh_empty);
+}
+
+/// A limit is held at middles of edges and triangles, too, of which a bound makes new ones at the end.
+TEST_F(WholeRun, TheReportTellsTheLargestDeviation) {
+  const std::pair<int, double> cubes[] = {{5, 0.05}, {6, 0.02}, {9, 0.05}};  // cells a side, height of the waves
+  const Field fields[] = {waves, [](const Vec3 &p) { return std::exp(-9 * p.x) + p.y * p.y; }};
+  for (const auto &[n, height] : cubes) {
+    Mesh original = kuhn_cube(n);
+    const double most = height;
+    transform(original, [most](const Vec3 &p) { return p + most * glm::sin(Vec3(7 * p.y, 5 * p.z, 6 * p.x)); });
+    const Surface before = surface_of(original, host.job);
+    for (const Field &field : fields)
+      for (const auto &[bound, limit] : {std::pair(0.1, 0.02), {0.05, 0.005}, {0.01, 0.01}}) {
+        set_scalars(original, field);
+        options.max_error = bound;
+        options.max_deviation = limit;
+        simplify(original);
+        const Surface after = surface_of(copy_of_result(), host.job);
+        TreeOnDemand tree(before);
+        const double deviation =
+            largest_deviation(before, tree, after, TreeOnDemand(after), Samples::between_too, host.job) /
+            box_of(before.points).diagonal();
+        EXPECT_LE(deviation, limit);
+        EXPECT_NEAR(report().max_deviation, deviation, 1e-12) << n << ' ' << bound;
+      }
+  }
 }
 
 }  // namespace
