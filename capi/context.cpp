@@ -30,7 +30,7 @@ void release(void *user, void *pointer, std::size_t bytes, std::size_t alignment
 
 void require_known_version(std::uint32_t version) {
   const std::uint32_t major = version / 10000, minor = version / 100 % 100;
-  if (major == TETLOD_VERSION_MAJOR && minor <= TETLOD_VERSION_MINOR) return;
+  if (version > 0 && major == TETLOD_VERSION_MAJOR && minor <= TETLOD_VERSION_MINOR) return;
   fail(Status::struct_size, "config: api_version %u is of version %u.%u, the library is %d.%d", version, major, minor,
        TETLOD_VERSION_MAJOR, TETLOD_VERSION_MINOR);
 }

@@ -70,8 +70,8 @@ enum {
   /* the call */
   TETLOD_ERR_ARGUMENT = 10,    /* null or misaligned pointer, type, shape or stride that makes no sense */
   TETLOD_ERR_OPTION = 11,      /* unknown option, or value out of its bounds */
-  TETLOD_ERR_STATE = 12,       /* called in the wrong order: nothing submitted or run, in a callback; mesh changed */
-  TETLOD_ERR_STRUCT_SIZE = 13, /* struct_size not set, or api_version newer or of another major */
+  TETLOD_ERR_STATE = 12,       /* wrong order: nothing submitted or run, in a callback; mesh changed; forked in a run */
+  TETLOD_ERR_STRUCT_SIZE = 13, /* struct_size or api_version not set, or of a newer minor or another major */
   TETLOD_ERR_BUFFER_SIZE = 14, /* the destination has room for fewer tuples than the result has */
   /* resources */
   TETLOD_ERR_MEMORY = 20,       /* the allocator, or the system, had no more */
@@ -254,7 +254,7 @@ TETLOD_API tetlod_status tetlod_set_log(tetlod_context *context, tetlod_log_fn f
 /* stage: see tetlod_stage_name; fraction of that stage in [0, 1], never less than at the call before, if that was in
  * the same stage. Non-zero cancels the run. */
 typedef int32_t (*tetlod_progress_fn)(void *user, int32_t stage, double fraction);
-/* fn NULL: none (the default). Called every 5 to 50 ms by what lists TETLOD_ERR_TIME_LIMIT; 100 on 8 M tets at worst */
+/* fn NULL: none (the default). Called every 5 to 50 ms by what lists TETLOD_ERR_TIME_LIMIT; of 8 M tets 300 at worst */
 TETLOD_API tetlod_status tetlod_set_progress(tetlod_context *context, tetlod_progress_fn fn, void *user);
 /* Makes the run, or other call that lists it, under way in another thread end with TETLOD_ERR_CANCELLED, as soon as
  * progress would be called. Without one under way it does nothing. */
@@ -427,7 +427,7 @@ TETLOD_API tetlod_status tetlod_estimate_memory(tetlod_context *context, uint64_
  *   what culling found of each sample, if sigma, min-distance and boundary-leaf are also those of the last run.
  * The same means the same contents (by a fingerprint of 128 bits, taken anew in every run) in the same layout: arrays
  * may be changed in place, or submitted again. What is kept for that counts as memory of the context; a run that fails
- * and tetlod_clear forget it, and a run that finds no memory first forgets it and tries again.
+ * in its work and tetlod_clear forget it, and a run that finds no memory first forgets it and tries again.
  *
  * Guarantees of a result: every tet has a positive volume, every face is used by one or two tets, the boundary is
  * closed, does not cross itself and has the components and the Euler characteristic of the original's, every value lies
@@ -441,8 +441,8 @@ TETLOD_API tetlod_status tetlod_run(tetlod_context *context);
  * tets or which values are ignored changed. _STRUCT_SIZE, _MEMORY_LIMIT, _CANCELLED, _TIME_LIMIT, _MESH_NONFINITE. */
 TETLOD_API tetlod_status tetlod_measure_error(tetlod_context *context, int32_t samples_per_tet,
                                               tetlod_error_report *out);
-/* How many original (side 0) or result (side 1) vertices have a value in each of `bins` equal parts of the original's
- * range [4, Figure 5]; counts has room for bins (1 to 1 << 20) numbers. TETLOD_ERR_STATE. */
+/* How many original (side 0, used or not) or result (side 1) vertices have a value in each of `bins` equal parts of the
+ * original's range [4, Figure 5]; counts has room for bins (1 to 1 << 20) numbers. TETLOD_ERR_STATE. */
 TETLOD_API tetlod_status tetlod_histogram(const tetlod_context *context, int32_t side, int32_t bins, int64_t *counts);
 
 /* ---- Fetching the result ---------------------------------------------------------------------------------------- */

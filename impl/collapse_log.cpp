@@ -90,8 +90,9 @@ std::int64_t collapses_to(double sigma, std::int64_t edges, const CollapseLog &l
 
 void weld(const CutVertices &vertices, std::size_t surface_points, Job &job, Surface &out) {
   Array<std::int32_t> number(surface_points, -1, &job.memory);
-  for (Triangle &t : out.triangles)
-    for (std::int32_t &corner : t) {
+  for (std::size_t t = 0; t < out.triangles.size(); t++) {
+    if (t % 16384 == 0) job.poll(1);
+    for (std::int32_t &corner : out.triangles[t]) {
       const auto v = std::size_t(corner);
       std::int32_t &n = number[std::size_t(vertices.id[v])];
       if (n < 0) {
@@ -102,6 +103,7 @@ void weld(const CutVertices &vertices, std::size_t surface_points, Job &job, Sur
       }
       corner = n;
     }
+  }
 }
 
 void replay(const CollapseLog &log, std::size_t count, const SurfaceTopology &topology, MovedValues values, Job &job,

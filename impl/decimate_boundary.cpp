@@ -5,13 +5,12 @@
 #include <cmath>
 
 #include "boundary_limits.hpp"
-#include "collapse_log.hpp"
 #include "collapse_rules.hpp"
 #include "edge_queue.hpp"
 #include "field_quadric.hpp"
 #include "half_edges.hpp"
 #include "lindstrom_turk.hpp"
-#include "surface_topology.hpp"
+#include "whole_arrays.hpp"
 
 namespace tetlod {
 
@@ -40,11 +39,11 @@ class Decimator {
         log_(log),
         lambda_(options.lambda),
         charge_(job.memory, openmesh_bytes_a_triangle * surface.triangles.size()),
-        queue_(3 * surface.triangles.size() / 2, job.memory) {
+        queue_(3 * surface.triangles.size() / 2, job) {
     copy_vertices(topology, locked);
     copy_connectivity(topology, job, mesh_);
     copy_triangles(topology);
-    for (std::size_t v = 0; v < point_.size(); v++) update_sums(VertexHandle(int(v)));
+    for_each(point_.size(), job, [&](std::size_t v) { update_sums(VertexHandle(int(v))); });
     if (options.max_deviation > 0)
       limits_.limit_deviation(surface, tree_.emplace(surface.points, surface.triangles, job), options.max_deviation,
                               job);
@@ -94,9 +93,9 @@ class Decimator {
   // ---- Setting up
 
   void copy_vertices(const SurfaceTopology &topology, Span<const std::uint8_t> locked) {
-    const std::size_t count = topology.vertex_of.size();
     for (std::int32_t id : topology.vertex_of) {
       const auto i = std::size_t(id);
+      if (id_.size() % 16384 == 0) job_.poll(0);
       point_.push_back(surface_.points[i]);
       values_.push_back(reinterpret_cast<const Values<m> *>(surface_.scalars.data())[i]);
       origin_.push_back(surface_.origin[i]);
@@ -104,8 +103,8 @@ class Decimator {
       touching_.push_back(topology.touching[i]);
       locked_.push_back(topology.touching[i] || (!locked.empty() && locked[i]));
     }
-    volume_.resize(count);
-    link_.resize(count);
+    grow(volume_, point_.size(), job_);
+    grow(link_, point_.size(), job_);
   }
 
   void copy_triangles(const SurfaceTopology &topology) {
@@ -386,6 +385,7 @@ DecimateReport decimate(Surface &surface, const SurfaceTopology &topology, Span<
   log.exhausted = report.edges_out > target;
   Surface simplified(job.memory);
   decimator.write(simplified);
+  job.poll(1);
   surface = std::move(simplified);
   return report;
 }

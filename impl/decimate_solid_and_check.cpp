@@ -46,8 +46,10 @@ std::string check_surface_of(const OriginalSolid &original, Job &job, CoarseSoli
     refuse_intersections(coarse.surface, coarse.topology, tree, 0, job);
     return {};
   } catch (const Error &error) {
-    coarse.wants_care = error.status() == Status::mesh_intersecting || error.status() == Status::mesh_nonmanifold;
-    if (coarse.wants_care) return error.what();
+    // Its vertices have no names that the host knows.
+    coarse.wants_care = true;
+    if (error.status() == Status::mesh_intersecting) return "the boundary crosses or touches itself";
+    if (error.status() == Status::mesh_nonmanifold) return "the boundary is no manifold";
     throw;
   }
 }

@@ -1,7 +1,6 @@
 #include "deviation.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace tetlod {

@@ -2,15 +2,15 @@
 #pragma once
 #include <cstdint>
 
-#include "memory.hpp"
+#include "whole_arrays.hpp"
 
 namespace tetlod {
 
 /// A binary heap that knows where each edge is. No allocation after the constructor.
 class EdgeQueue {
  public:
-  EdgeQueue(std::size_t edges, Memory &memory)
-      : heap_(&memory), place_(edges, absent, &memory), cost_(edges, 0.0, &memory) {
+  EdgeQueue(std::size_t edges, Job &job)
+      : heap_(&job.memory), place_(array_of(edges, absent, job)), cost_(array_of(edges, 0.0, job)) {
     heap_.reserve(edges);
   }
 

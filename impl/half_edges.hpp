@@ -48,6 +48,7 @@ void copy_connectivity(const SurfaceTopology &topology, Job &job, Mesh &mesh) {
   for (std::size_t v = 0; v < topology.vertex_of.size(); v++) mesh.new_vertex();
   Array<typename Mesh::HalfedgeHandle> made(halfedges, typename Mesh::HalfedgeHandle(), &job.memory);
   for (std::size_t h = 0; h < halfedges; h++) {
+    if (h % 65536 == 0) job.poll(0);
     const auto mate = std::size_t(topology.mate[h]);
     if (mate < h) continue;
     made[h] = mesh.new_edge(vertex(h), vertex(mate));

@@ -6,7 +6,6 @@
 // is twice the area vector and d_t = n_t . p. So the sums below are all that placement needs, and they are kept per
 // vertex: an edge costs a few additions however many triangles surround it.
 #pragma once
-#include <cmath>
 
 #include "geometry.hpp"
 

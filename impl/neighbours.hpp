@@ -1,7 +1,6 @@
 // The neighbours of a vertex, found from its star whenever they are asked for: lists of them would take as much memory
 // as a sixth of all that collapses need, and as much time to keep.
 #pragma once
-#include <algorithm>
 #include <cstdint>
 
 #include "mesh.hpp"

@@ -303,7 +303,8 @@ class Pipeline : private Beginning {
     const Surface &surface = prepared_.surface(job_);
     const double range = original_.range, diagonal = box_of(surface.points).diagonal();
     const double weight = as_published(options_) || !(range > 0) ? 0 : field_weight_of(report_) * diagonal / range;
-    DecimateOptions options{sigma, options_.lambda, options_.clean_edges, options_.max_deviation * diagonal};
+    const double lambda = as_published(options_) ? options_.lambda : Options().lambda;  // of a constant field
+    DecimateOptions options{sigma, lambda, options_.clean_edges, options_.max_deviation * diagonal};
     for (std::size_t k = 0; k < surface.fields; k++)
       options.field_weight[k] = weight * original_.view.scales.weighted[k];
     const Prepared::Decimated decimated = prepared_.decimate(options, input_.index_base, job_, surface_);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "decimate_and_check.hpp"
+#include "whole_arrays.hpp"
 
 namespace tetlod {
 
@@ -54,6 +55,7 @@ bool Prepared::holds(const Fingerprint &mesh, const Input &input, const Options 
 }
 
 bool Prepared::holds(const Fingerprint &stamp, const Input &input, Job &job) {
+  surface_has_values_ = false;
   return filled_ && stamp == stamp_ && renew_values(input, job, original);
 }
 
@@ -75,11 +77,17 @@ void Prepared::prepare_surface(Job &job) {
     topology_ = std::move(topology);
     has_surface_ = true;
   }
+  if (!surface_has_values_) fill_surface(job);
+}
+
+void Prepared::fill_surface(Job &job) {
   const std::size_t fields = surface_.fields = original.view.fields;
   surface_.scalars.resize(fields * surface_.points.size());
-  for (std::size_t i = 0; i < surface_.origin.size(); i++)
+  for_each(surface_.origin.size(), job, [&](std::size_t i) {
     for (std::size_t k = 0; k < fields; k++)
       surface_.scalars[i * fields + k] = original.view.scalars[std::size_t(surface_.origin[i]) * fields + k];
+  });
+  surface_has_values_ = true;
 }
 
 const Surface &Prepared::surface(Job &job) {

@@ -72,6 +72,7 @@ class Prepared {
  private:
   bool holds(const Fingerprint &stamp, const Input &input, Job &job);
   void prepare_surface(Job &job);
+  void fill_surface(Job &job);
   DecimateReport decimate_logged(const DecimateOptions &options, Span<const std::uint8_t> flags, Job &job,
                                  Surface &surface, bool &reused);
   Array<std::uint8_t> flags_of_surface(Job &job) const;
@@ -94,6 +95,7 @@ class Prepared {
   };
 
   bool filled_ = false, has_surface_ = false;
+  bool surface_has_values_ = false;  ///< the original's of now
   Fingerprint stamp_;
   Surface surface_;
   SurfaceTopology topology_;

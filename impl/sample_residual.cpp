@@ -191,10 +191,23 @@ class ResidualTree {
       }
     }
     if (axis < 0) return l.begin;
-    const auto first = vertices_.begin() + std::ptrdiff_t(l.begin), last = vertices_.begin() + std::ptrdiff_t(l.end);
-    const auto middle =
-        std::stable_partition(first, last, [&](std::int32_t v) { return point(v)[axis] - centre[axis] < 0; });
-    return std::size_t(middle - vertices_.begin());
+    return part(l, [&](std::int32_t v) { return point(v)[axis] - centre[axis] < 0; });
+  }
+
+  /// Puts those of the leaf's vertices first for which that holds, all in their order; where the others begin.
+  template <class Is>
+  std::size_t part(const Leaf &l, const Is &is_first) {
+    others_.clear();
+    std::size_t end = l.begin;
+    for (std::size_t i = l.begin; i < l.end; i++) {
+      const std::int32_t v = vertices_[i];
+      if (is_first(v))
+        vertices_[end++] = v;
+      else
+        others_.push_back(v);
+    }
+    std::copy(others_.begin(), others_.end(), vertices_.begin() + std::ptrdiff_t(end));
+    return end;
   }
 
   const MeshView &mesh_;
@@ -203,6 +216,7 @@ class ResidualTree {
   Span<const std::uint8_t> is_interior_;
   Job &job_;
   Array<Leaf> heap_;
+  Array<std::int32_t> others_{&job_.memory};
   double mean_ = 0;
   std::size_t useful_ = 0;
   std::size_t work_ = 0;  // points of the leaves that were split since the last poll

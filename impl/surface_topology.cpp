@@ -45,6 +45,7 @@ class TopologyFinder {
     for (std::size_t v = 0; v < points_.size(); v++) begin_[v + 1] += begin_[v];
     sorted_.resize(std::size_t(count));
     Array<std::int32_t> place(begin_, &job_.memory);
+    job_.poll(0);
     for (std::int32_t h = 0; h < count; h++)
       sorted_[std::size_t(place[std::size_t(low_end(h))]++)] = {std::max(from(h), to(h)), h};
     for_each(points_.size(), job_, [&](std::size_t v) {
@@ -178,7 +179,8 @@ class TopologyFinder {
       const auto number = std::int32_t(out_.components++);
       out_.component[t] = number;
       stack.push_back(std::int32_t(t));
-      while (!stack.empty()) {
+      for (std::size_t seen = 0; !stack.empty(); seen++) {
+        if (seen % 65536 == 0) job_.poll(0);
         const std::int32_t at = stack.back();
         stack.pop_back();
         for (int k = 0; k < 3; k++) {

@@ -60,7 +60,7 @@ std::size_t Worker::finish_any(Job &job, TetgenReply &reply) {
         return i;
       }
       if (!is_busy)
-        fail(Status::internal, "the host has forked, or closed descriptors, while %s was at work", path_.c_str());
+        fail(Status::state, "the host has forked, or closed descriptors, while %s was at work", path_.c_str());
       wait_for_something();
     }
   } catch (...) {

@@ -113,7 +113,7 @@ static void check_configs(void) {
   config = zero_config(), config.struct_size = sizeof config - 8;
   refuse_config(config, TETLOD_ERR_STRUCT_SIZE, "config struct_size");
   config = zero_config(), config.api_version = 0;
-  if (TETLOD_VERSION_MAJOR > 0) refuse_config(config, TETLOD_ERR_STRUCT_SIZE, "api_version 0");
+  refuse_config(config, TETLOD_ERR_STRUCT_SIZE, "api_version 0");
   config.api_version = (TETLOD_VERSION_MAJOR + 1) * 10000;
   refuse_config(config, TETLOD_ERR_STRUCT_SIZE, "api_version 10000");
   config.api_version = TETLOD_API_VERSION + 100;

@@ -119,5 +119,23 @@ TEST_F(Presets, AFewTetsAreMetToo) {
   }
 }
 
+/// Not even where the field is constant, so that the boundary's cost cannot see it.
+TEST_F(Presets, WhatIsOfThePaperHasNoMeaningWithASize) {
+  make_ball(cube);
+  for (const bool constant : {false, true}) {
+    if (constant) std::fill(cube.values.begin(), cube.values.end(), 1.0);
+    const auto hash_with = [&](double lambda, double other) {
+      const auto report = report_with([&](tetlod_context *of) {
+        tetlod_set_real(of, TETLOD_OPT_TARGET_RATIO, 0.1);
+        tetlod_set_real(of, TETLOD_OPT_CLEAN_EDGES, 1e-6);
+        tetlod_set_lambda(of, lambda);
+        for (const auto set : {tetlod_set_sigma, tetlod_set_rho, tetlod_set_min_distance}) set(of, other);
+      });
+      return report.hash;
+    };
+    EXPECT_EQ(hash_with(100, 0.3), hash_with(0.1, 0.01)) << constant;
+  }
+}
+
 }  // namespace
 }  // namespace tetlod_test

@@ -9,6 +9,7 @@
 
 #include "edge_queue.hpp"
 #include "lindstrom_turk.hpp"
+#include "meshes.hpp"
 
 namespace tetlod {
 namespace {
@@ -188,8 +189,8 @@ TEST(Sums, TakeBackWhatWasAdded) {
 TEST(EdgeQueue, AgainstASet) {
   std::mt19937_64 random(1);
   constexpr std::int32_t edges = 300;
-  Memory memory;
-  EdgeQueue queue(edges, memory);
+  test::Host host;
+  EdgeQueue queue(edges, host.job);
   std::set<std::pair<double, std::int32_t>> expected;
   std::vector<double> cost(edges, -1);
   const auto forget = [&](std::int32_t e) { expected.erase({cost[std::size_t(e)], e}); };

@@ -242,7 +242,7 @@ TEST_F(SeveralWorkers, DescriptorsClosedInTheMiddleOfCalls) {
     begin(0, "waits");
     begin(1, "waits");
     for (int descriptor = 3; descriptor < 64; descriptor++) ::close(descriptor);
-    const bool refused = finish_thrown() == Status::internal;
+    const bool refused = finish_thrown() == Status::state;
     ::setenv("FAKE_REMESH", "", 1);
     return refused && works();
   }));
