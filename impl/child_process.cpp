@@ -13,6 +13,8 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <utility>
 #include <vector>
@@ -149,6 +151,19 @@ pid_t spawn(const std::string &path, const FileActions &actions) {
   return pid;
 }
 
+/// Of a pidfd; 0: it is none. Below zero: the system does not show it now, or the process has been waited for.
+long pid_shown_of(int descriptor) noexcept {
+  char path[64], text[1024];
+  std::snprintf(path, sizeof path, "/proc/self/fdinfo/%d", descriptor);
+  const int file = ::open(path, O_RDONLY | O_CLOEXEC);
+  if (file < 0) return -1;
+  const ssize_t size = ::read(file, text, sizeof text - 1);
+  ::close(file);
+  text[size > 0 ? size : 0] = 0;
+  const char *const line = std::strstr(text, "\nPid:");
+  return line ? std::strtol(line + 5, nullptr, 10) : 0;
+}
+
 }  // namespace
 
 Descriptor &Descriptor::operator=(Descriptor &&other) noexcept {
@@ -207,8 +222,9 @@ void ChildProcess::start(const std::string &path, const Descriptor &request, con
   output_ = std::move(output.host);
   // A host that ignores SIGCHLD, or waits for any child, may have reaped it by now; then there is nothing to hold.
   handle_ = Descriptor(int(::syscall(SYS_pidfd_open, pid, 0)));
-  if (handle_.number() >= 0) return;
   const int error = errno;
+  shown_pid_ = pid_shown_of(handle_.number());
+  if (handle_.number() >= 0) return;
   if (error == ESRCH) return;
   ::kill(pid, SIGKILL);
   while (::waitpid(pid, nullptr, 0) < 0 && errno == EINTR) {
@@ -217,17 +233,25 @@ void ChildProcess::start(const std::string &path, const Descriptor &request, con
 }
 
 ChildProcess::~ChildProcess() {
+  if (!has_handle()) handle_.forget();
   if (is_ours()) end();
+}
+
+/// Before Linux 6.9 all pidfds are one file, to which descriptors of events belong, too.
+bool ChildProcess::has_handle() const noexcept {
+  if (!handle_.is_open() || shown_pid_ < 0) return handle_.is_open();
+  const long shown = pid_shown_of(handle_.number());
+  return shown == shown_pid_ || shown < 0;
 }
 
 bool ChildProcess::is_ours() const noexcept { return owner_ == ::getpid(); }
 
 bool ChildProcess::is_connected() const noexcept {
-  return control_.is_as_it_was() && output_.is_as_it_was() && handle_.is_as_it_was();
+  return control_.is_as_it_was() && output_.is_as_it_was() && (handle_.number() < 0 || has_handle());
 }
 
 bool ChildProcess::has_ended() const noexcept {
-  if (!handle_.is_open()) return true;
+  if (!has_handle()) return true;
   pollfd ended = {handle_.number(), POLLIN, 0};
   return ::poll(&ended, 1, 0) == 1;
 }
@@ -245,7 +269,9 @@ double ChildProcess::cpu_seconds() const noexcept {
 // control socket ends it then.
 Ending ChildProcess::end() noexcept {
   siginfo_t information = {};
-  if (handle_.is_open()) {
+  if (!has_handle()) {
+    handle_.forget();
+  } else {
     ::syscall(SYS_pidfd_send_signal, handle_.number(), SIGKILL, nullptr, 0);
     while (::waitid(idtype_t(wait_by_pidfd), id_t(handle_.number()), &information, WEXITED) < 0 && errno == EINTR) {
     }

@@ -22,6 +22,7 @@ class Descriptor {
   /// There was none, or it is open.
   bool is_as_it_was() const noexcept { return number_ < 0 || is_open(); }
   void close() noexcept;
+  void forget() noexcept { number_ = -1; }  ///< it is another's
 
  private:
   using File = std::pair<dev_t, ino_t>;
@@ -70,8 +71,10 @@ class ChildProcess {
 
  private:
   void start(const std::string &path, const Descriptor &request, const Descriptor &response);
+  bool has_handle() const noexcept;
 
   pid_t owner_, pid_ = -1;
+  long shown_pid_ = -1;  // as the system shows it of the handle; below zero: it does not
   Descriptor control_, output_, handle_;
 };
 

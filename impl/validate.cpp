@@ -271,9 +271,9 @@ Defects find_defects(const Input &input, const Options &options, Job &job) {
   return Inspector(input, options, job).inspect();
 }
 
-Error verdict_on(const Input &input, const Options &options, Job &job) {
+Error verdict_on(const Input &input, const Options &options, const Defects &defects, Job &job) {
   try {
-    if (any_strict_policy(options)) refuse_defects(find_defects(input, options, job), options);
+    if (any_strict_policy(options)) refuse_defects(defects, options);
     Original original(job.memory);
     Boundary boundary(job.memory);
     prepare_with_boundary(input, options, job, original, boundary);

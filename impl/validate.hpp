@@ -40,8 +40,8 @@ struct Defects {
 Defects find_defects(const Input &input, const Options &options, Job &job);
 
 /// What a run with an undecimated boundary would say of the mesh before remeshing; Status::ok when nothing. Throws what
-/// is not the mesh's fault.
-Error verdict_on(const Input &input, const Options &options, Job &job);
+/// is not the mesh's fault. defects: those found.
+Error verdict_on(const Input &input, const Options &options, const Defects &defects, Job &job);
 
 /// Throws the status of the first class that has defects and whose policy is policy_error.
 void refuse_defects(const Defects &defects, const Options &options);

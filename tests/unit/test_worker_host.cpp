@@ -1,6 +1,7 @@
 // Worker: hosts that fork, close descriptors, run out of them, ignore or reap their children, or are killed.
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/eventfd.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -202,6 +203,23 @@ TEST_F(WorkerTest, ChildrenOfTheHostAreLeftAlone) {
       ::waitpid(child, nullptr, 0);
       return good && lives;
     }));
+}
+
+/// Which may be of the same anonymous file.
+TEST_F(WorkerTest, EventsOfTheHostAreLeftAlone) {
+  EXPECT_TRUE(in_a_child([&] {
+    use(TETLOD_REMESH);
+    if (!works()) return false;
+    for (int descriptor = 3; descriptor < 64; descriptor++) ::close(descriptor);
+    std::vector<int> opened;
+    while (opened.empty() || opened.back() < 64) opened.push_back(::eventfd(7, EFD_NONBLOCK));
+    const bool good = works() && works();
+    worker.reset();
+    return good && std::all_of(opened.begin(), opened.end(), [](int descriptor) {
+             eventfd_t count = 0;
+             return ::eventfd_read(descriptor, &count) == 0 && count == 7;
+           });
+  }));
 }
 
 TEST_F(WorkerTest, ForkedHost) {
