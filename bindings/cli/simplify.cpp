@@ -18,7 +18,7 @@ void check(tetlod_status status, const tetlod_context *context) {
 
 vtkSmartPointer<vtkTetlodSimplify> make_filter(const Arguments &arguments, VtkMessages &messages) {
   auto filter = vtkSmartPointer<vtkTetlodSimplify>::New();
-  filter->MeasureErrorOn();
+  filter->SetMeasureError(!arguments.quiet || !arguments.report.empty() || !arguments.pictures.empty());
   if (arguments.preset) filter->SetPreset(*arguments.preset);
   for (const auto &[option, value] : arguments.numbers) filter->SetOption(tetlod_option_name(option), value);
   for (const auto &[name, weight] : arguments.steer) filter->AddSteeringArray(name.c_str(), weight);

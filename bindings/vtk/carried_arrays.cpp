@@ -48,7 +48,8 @@ void for_carried(vtkDataSetAttributes &data, int32_t association, vtkDataArray *
     if (reason.empty())
       use(data.GetArray(i), attribute_of(data, i, association));
     else
-      notes.push_back("array '" + name + "' is left out: it " + reason);
+      notes.push_back("array '" + name + "' of " + (association == TETLOD_POINT_FIELD ? "points" : "cells") +
+                      " is left out: it " + reason);
   }
 }
 
