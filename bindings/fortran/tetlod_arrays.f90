@@ -50,25 +50,29 @@ contains
     end if
   end function
 
-  ! The number of the second element, or of the only one.
-  pure function second(extent)
-    integer(c_int64_t), intent(in) :: extent
+  ! The number of the second element, or of the only one. Where gfortran has made a temporary of what it is given, the
+  ! first one's is not 1.
+  pure function second(first, extent)
+    integer(c_int64_t), intent(in) :: first, extent
     integer(c_int64_t) :: second
-    second = min(2_c_int64_t, extent)
+    second = first + min(1_c_int64_t, extent - 1)
   end function
 
   function r32_array(a) result(array)
     real(real32), intent(in), target :: a(..)
     type(tetlod_array) :: array
     type(c_ptr) :: ends(3)
-    integer(c_int64_t) :: n(rank(a))
+    integer(c_int64_t) :: n(rank(a)), b(rank(a))
     n = shape(a, kind=c_int64_t)
     ends = c_null_ptr
     select rank (a)
     rank (1)
-      if (n(1) > 0) ends = [c_loc(a(1)), c_loc(a(1)), c_loc(a(second(n(1))))]
+      b = lbound(a, kind=c_int64_t)
+      if (n(1) > 0) ends = [c_loc(a(b(1))), c_loc(a(b(1))), c_loc(a(second(b(1), n(1))))]
     rank (2)
-      if (all(n > 0)) ends = [c_loc(a(1, 1)), c_loc(a(second(n(1)), 1)), c_loc(a(1, second(n(2))))]
+      b = lbound(a, kind=c_int64_t)
+      if (all(n > 0)) ends = [c_loc(a(b(1), b(2))), c_loc(a(second(b(1), n(1)), b(2))), &
+                              c_loc(a(b(1), second(b(2), n(2))))]
     end select
     array = described(TETLOD_FLOAT32, n, ends)
   end function
@@ -77,14 +81,17 @@ contains
     real(real64), intent(in), target :: a(..)
     type(tetlod_array) :: array
     type(c_ptr) :: ends(3)
-    integer(c_int64_t) :: n(rank(a))
+    integer(c_int64_t) :: n(rank(a)), b(rank(a))
     n = shape(a, kind=c_int64_t)
     ends = c_null_ptr
     select rank (a)
     rank (1)
-      if (n(1) > 0) ends = [c_loc(a(1)), c_loc(a(1)), c_loc(a(second(n(1))))]
+      b = lbound(a, kind=c_int64_t)
+      if (n(1) > 0) ends = [c_loc(a(b(1))), c_loc(a(b(1))), c_loc(a(second(b(1), n(1))))]
     rank (2)
-      if (all(n > 0)) ends = [c_loc(a(1, 1)), c_loc(a(second(n(1)), 1)), c_loc(a(1, second(n(2))))]
+      b = lbound(a, kind=c_int64_t)
+      if (all(n > 0)) ends = [c_loc(a(b(1), b(2))), c_loc(a(second(b(1), n(1)), b(2))), &
+                              c_loc(a(b(1), second(b(2), n(2))))]
     end select
     array = described(TETLOD_FLOAT64, n, ends)
   end function
@@ -93,14 +100,17 @@ contains
     integer(int8), intent(in), target :: a(..)
     type(tetlod_array) :: array
     type(c_ptr) :: ends(3)
-    integer(c_int64_t) :: n(rank(a))
+    integer(c_int64_t) :: n(rank(a)), b(rank(a))
     n = shape(a, kind=c_int64_t)
     ends = c_null_ptr
     select rank (a)
     rank (1)
-      if (n(1) > 0) ends = [c_loc(a(1)), c_loc(a(1)), c_loc(a(second(n(1))))]
+      b = lbound(a, kind=c_int64_t)
+      if (n(1) > 0) ends = [c_loc(a(b(1))), c_loc(a(b(1))), c_loc(a(second(b(1), n(1))))]
     rank (2)
-      if (all(n > 0)) ends = [c_loc(a(1, 1)), c_loc(a(second(n(1)), 1)), c_loc(a(1, second(n(2))))]
+      b = lbound(a, kind=c_int64_t)
+      if (all(n > 0)) ends = [c_loc(a(b(1), b(2))), c_loc(a(second(b(1), n(1)), b(2))), &
+                              c_loc(a(b(1), second(b(2), n(2))))]
     end select
     array = described(TETLOD_UINT8, n, ends)
   end function
@@ -109,14 +119,17 @@ contains
     integer(int32), intent(in), target :: a(..)
     type(tetlod_array) :: array
     type(c_ptr) :: ends(3)
-    integer(c_int64_t) :: n(rank(a))
+    integer(c_int64_t) :: n(rank(a)), b(rank(a))
     n = shape(a, kind=c_int64_t)
     ends = c_null_ptr
     select rank (a)
     rank (1)
-      if (n(1) > 0) ends = [c_loc(a(1)), c_loc(a(1)), c_loc(a(second(n(1))))]
+      b = lbound(a, kind=c_int64_t)
+      if (n(1) > 0) ends = [c_loc(a(b(1))), c_loc(a(b(1))), c_loc(a(second(b(1), n(1))))]
     rank (2)
-      if (all(n > 0)) ends = [c_loc(a(1, 1)), c_loc(a(second(n(1)), 1)), c_loc(a(1, second(n(2))))]
+      b = lbound(a, kind=c_int64_t)
+      if (all(n > 0)) ends = [c_loc(a(b(1), b(2))), c_loc(a(second(b(1), n(1)), b(2))), &
+                              c_loc(a(b(1), second(b(2), n(2))))]
     end select
     array = described(TETLOD_INT32, n, ends)
   end function
@@ -125,14 +138,17 @@ contains
     integer(int64), intent(in), target :: a(..)
     type(tetlod_array) :: array
     type(c_ptr) :: ends(3)
-    integer(c_int64_t) :: n(rank(a))
+    integer(c_int64_t) :: n(rank(a)), b(rank(a))
     n = shape(a, kind=c_int64_t)
     ends = c_null_ptr
     select rank (a)
     rank (1)
-      if (n(1) > 0) ends = [c_loc(a(1)), c_loc(a(1)), c_loc(a(second(n(1))))]
+      b = lbound(a, kind=c_int64_t)
+      if (n(1) > 0) ends = [c_loc(a(b(1))), c_loc(a(b(1))), c_loc(a(second(b(1), n(1))))]
     rank (2)
-      if (all(n > 0)) ends = [c_loc(a(1, 1)), c_loc(a(second(n(1)), 1)), c_loc(a(1, second(n(2))))]
+      b = lbound(a, kind=c_int64_t)
+      if (all(n > 0)) ends = [c_loc(a(b(1), b(2))), c_loc(a(second(b(1), n(1)), b(2))), &
+                              c_loc(a(b(1), second(b(2), n(2))))]
     end select
     array = described(TETLOD_INT64, n, ends)
   end function

@@ -104,8 +104,8 @@ contains
     call conclude(status, this%last_message(), stat, errmsg)
   end subroutine
 
-  ! Ends the context and its result; the submitted arrays are free again. Allowed without a context, and where a copy
-  ! ended it; does nothing inside a callback of the context.
+  ! Ends the context and its result; the submitted arrays are free again. Allowed without a context; of copies one alone
+  ! may be destroyed, as the others know nothing of it. Does nothing inside a callback of the context.
   subroutine destroy(this)
     class(tetlod_owner), intent(inout) :: this
     integer(c_int32_t) :: status

@@ -11,6 +11,8 @@ module tetlod_results
   implicit none
   private
 
+  integer, parameter :: most_bins = 2**20  ! of a histogram
+
   type, extends(tetlod_fields), public :: tetlod_context
   contains
     procedure :: run
@@ -60,7 +62,7 @@ contains
     character(len=*), intent(inout), optional :: errmsg
     integer(c_int32_t) :: status
     integer :: refused
-    allocate (counts(max(bins, 1)), source=0_int64, stat=refused)
+    allocate (counts(min(max(bins, 1), most_bins)), source=0_int64, stat=refused)  ! more are refused
     if (refused /= 0) then
       call refuse(int(bins, int64), stat, errmsg)
       return

@@ -1,10 +1,10 @@
 ! The options of a context: generics over the kinds, one procedure an entry of the C ABI.
 module tetlod_settings
-  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
+  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64, real32, real64
   use tetlod_c
   use tetlod_lifetime, only: tetlod_owner
-  use tetlod_types, only: TETLOD_OK
+  use tetlod_types, only: tetlod_bounds, TETLOD_OK
   implicit none
   private
 
@@ -106,8 +106,20 @@ contains
     real(real32), intent(in) :: value
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    call this%settle(c_set_real(this%c_handle(), option, real(value, c_double)), stat, errmsg)
+    call this%settle(c_set_real(this%c_handle(), option, double_of(option, value)), stat, errmsg)
   end subroutine
+
+  ! The largest value of the option itself, where that is what was rounded: 0.1 in single precision is more.
+  function double_of(option, value) result(double)
+    integer(c_int32_t), intent(in) :: option
+    real(real32), intent(in) :: value
+    real(c_double) :: double
+    type(tetlod_bounds) :: bounds
+    double = real(value, c_double)
+    bounds%struct_size = int(c_sizeof(bounds), c_int32_t)
+    if (c_option_bounds(option, bounds) /= TETLOD_OK) return
+    if (value <= real(bounds%most, real32)) double = min(double, bounds%most)
+  end function
 
   subroutine set_real_r64(this, option, value, stat, errmsg)
     class(tetlod_options), intent(inout) :: this

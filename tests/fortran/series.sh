@@ -27,6 +27,12 @@ cmp -s "$folder/${files[0]}" "$folder/${files[2]}" && fail "the front does not m
 
 "$program" 8 6 0 "$folder/none" >"$folder/said" || fail "the solver alone ended with $?"
 [[ -e $folder/none.pvd ]] && fail "wrote a series that was not asked for"
+ln -s /dev/full "$folder/full_0000.vtu"  # a disk without room
+"$program" 8 6 2 "$folder/full" >"$folder/said" 2>&1 && fail "wrote to a full disk"
+grep -q "cannot write $folder/full" "$folder/said" || fail "said: $(cat "$folder/said")"
+for wrong in 4,8 '3*5' 7x /; do
+  "$program" "$wrong" >"$folder/said" 2>&1 && fail "took '$wrong' for a number"
+done
 "$program" eight >"$folder/said" 2>&1 && fail "took 'eight' for a number"
 grep -q "'eight' is no number" "$folder/said" || fail "said: $(cat "$folder/said")"
 echo "three copies, each read and simplified again"

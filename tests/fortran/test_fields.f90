@@ -81,6 +81,45 @@ contains
     call lod%destroy()
   end subroutine
 
+  ! What is not borrowed may be an expression, or a component of an array of a derived type, which gfortran copies.
+  subroutine test_temporaries()
+    type :: node
+      real(real64) :: value, pair(2)
+    end type
+    type(tetlod_context) :: lod
+    type(node), allocatable, target :: nodes(:), small_nodes(:)
+    real(real64), allocatable, target :: field(:, :)
+    real(real64), allocatable :: small(:), small_pairs(:, :)
+    integer, allocatable :: order(:)
+    integer(int64) :: n
+    integer :: i
+    allocate (field, source=linear_at(xyz))
+    allocate (nodes(size(xyz, 2)))
+    do i = 1, size(nodes)
+      nodes(i) = node(field(1, i), field(:, i))
+    end do
+    order = [(i, i=1, size(nodes))]
+    call begin(lod)
+    call lod%submit_field("first", TETLOD_POINT_FIELD, field(1, :))
+    call lod%run()
+    call lod%fetch_counts(n)
+    allocate (small(n), small_pairs(2, n), small_nodes(n))
+    call lod%transfer(field, small_pairs)
+    call lod%transfer(nodes%value, small)
+    call expect(all(same(small, small_pairs(1, :))), "transfer of a component")
+    call lod%transfer(2 * field, small_pairs)
+    call expect(all(same(small_pairs(1, :), 2 * small)), "transfer of an expression")
+    small = -1
+    call lod%transfer(field(1, order), small)
+    call expect(all(same(2 * small, small_pairs(1, :))), "transfer of a vector subscript")
+    call lod%transfer(field(1, :), small_nodes%value)
+    call expect(all(same(small_nodes%value, small)), "transfer into a component")
+    small_nodes%value = -1
+    call lod%fetch_field("first", small_nodes%value)
+    call expect(all(same(small_nodes%value, small)), "a field fetched into a component")
+    call lod%destroy()
+  end subroutine
+
   ! Of one kind and of the other, also a section of a larger array; heavy, it decides where the samples are.
   subroutine test_steering()
     type(tetlod_context) :: lod
@@ -292,6 +331,7 @@ program test_fields
   call make_box(cells, xyz, tets)
   allocate (values, source=sin(4 * xyz(1, :)) + xyz(2, :) * xyz(3, :))
   call test_point_fields()
+  call test_temporaries()
   call test_cell_fields()
   call test_steering()
   call test_stencils()

@@ -194,6 +194,12 @@ contains
     call expect(stat == TETLOD_ERR_OPTION .and. index(message, "rho") > 0, "rho 2")
     call lod%get_real(TETLOD_OPT_RHO, rho)
     call expect(abs(rho - 0.25d0) < tiny(rho), "rho unchanged")
+    call lod%set_real(TETLOD_OPT_CLEAN_EDGES, 0.1, stat=stat)
+    call lod%get_real(TETLOD_OPT_CLEAN_EDGES, rho)
+    call expect(stat == TETLOD_OK .and. abs(rho - 0.1d0) < tiny(rho), "the largest value, rounded up")
+    call lod%set_real(TETLOD_OPT_CLEAN_EDGES, 0.11, stat=stat)
+    call expect(stat == TETLOD_ERR_OPTION, "more than that")
+    call lod%set_real(TETLOD_OPT_CLEAN_EDGES, 0.0)
     flat = 0
     one = 0
     call lod%submit_points(flat, stat=stat, errmsg=message)

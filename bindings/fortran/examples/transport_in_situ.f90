@@ -96,7 +96,7 @@ contains
     call lod%fetch_report(report)
     spent%peak = max(spent%peak, report%peak_bytes + report%worker_peak_bytes)
     spent%runs = spent%runs + 1
-    print '("time ", f5.2, ": ", i0, " tets, ", f0.3, " s")', f%time, report%tets_out, report%seconds_total
+    print '("time ", f0.2, ": ", i0, " tets, ", f0.3, " s")', f%time, report%tets_out, report%seconds_total
   end subroutine
 
   subroutine print_cost(f, spent, steps)
@@ -152,8 +152,8 @@ contains
     argument = preset
     text = text_argument(position, "")
     if (text == "") return
-    read (text, *, iostat=stat) argument
-    if (stat /= 0 .or. argument < merge(0, 1, position == 3)) &
+    read (text, '(i10)', iostat=stat) argument
+    if (verify(text, "0123456789") /= 0 .or. len(text) > 9 .or. stat /= 0 .or. argument < merge(0, 1, position == 3)) &
       error stop "transport_in_situ: '"//text//"' is no number of cells, of steps, or of steps between copies"
   end function
 end program

@@ -4,7 +4,9 @@ module vtu_series
   use, intrinsic :: iso_fortran_env, only: int8, int32, int64, real64
   implicit none
   private
-  public :: add_to_series
+  public :: add_to_series, cut
+
+  integer, parameter :: cut = -100  ! a file is not whole, as on a disk that is full: neither write nor close tell
 
   type, public :: series
     character(len=:), allocatable :: prefix  ! of the files
@@ -18,8 +20,8 @@ module vtu_series
 
 contains
 
-  ! xyz(3, n); tets(4, m), counted from 0; values(n). The .pvd is whole after every time. stat is 0 or what open or
-  ! write gave.
+  ! xyz(3, n); tets(4, m), counted from 0; values(n). The .pvd is whole after every time. stat is 0, what open or write
+  ! gave, or `cut`.
   subroutine add_to_series(s, time, xyz, tets, values, stat)
     type(series), intent(inout) :: s
     real(real64), intent(in) :: time, xyz(:, :), values(:)
@@ -28,7 +30,7 @@ contains
     character(len=:), allocatable :: path
     character(len=24) :: number
     integer(int64) :: bytes
-    write (number, '("_", i4.4, ".vtu")') s%count
+    write (number, '("_", i0.4, ".vtu")') s%count
     path = s%prefix//trim(number)
     call write_vtu(path, s%name, xyz, tets, values, stat)
     if (stat /= 0) return
@@ -45,12 +47,26 @@ contains
   subroutine write_pvd(s, stat)
     type(series), intent(in) :: s
     integer, intent(out) :: stat
+    character(len=:), allocatable :: text
     integer :: unit
+    text = '<VTKFile type="Collection" version="0.1">'//new_line_//'  <Collection>'//new_line_//s%entries &
+      //'  </Collection>'//new_line_//'</VTKFile>'//new_line_
     open (newunit=unit, file=s%prefix//".pvd", access="stream", form="unformatted", status="replace", iostat=stat)
     if (stat /= 0) return
-    write (unit, iostat=stat) '<VTKFile type="Collection" version="0.1">'//new_line_//'  <Collection>'//new_line_ &
-      //s%entries//'  </Collection>'//new_line_//'</VTKFile>'//new_line_
+    write (unit, iostat=stat) text
+    call finish(unit, s%prefix//".pvd", len(text, kind=int64), stat)
+  end subroutine
+
+  ! Closes a file that is to have so many bytes.
+  subroutine finish(unit, path, bytes, stat)
+    integer, intent(in) :: unit
+    character(len=*), intent(in) :: path
+    integer(int64), intent(in) :: bytes
+    integer, intent(inout) :: stat
+    integer(int64) :: written
     close (unit)
+    inquire (file=path, size=written)
+    if (stat == 0 .and. written /= bytes) stat = cut
   end subroutine
 
   subroutine write_vtu(path, name, xyz, tets, values, stat)
@@ -58,6 +74,7 @@ contains
     real(real64), intent(in) :: xyz(:, :), values(:)
     integer(int32), intent(in) :: tets(:, :)
     integer, intent(out) :: stat
+    character(len=*), parameter :: tail = new_line_//'  </AppendedData>'//new_line_//'</VTKFile>'//new_line_
     integer(int64) :: n, m
     integer(int32) :: k
     integer :: unit
@@ -66,9 +83,8 @@ contains
     open (newunit=unit, file=path, access="stream", form="unformatted", status="replace", iostat=stat)
     if (stat /= 0) return
     write (unit, iostat=stat) head(name, n, m), 8 * n, values, 24 * n, xyz, 16 * m, tets, &
-      4 * m, [(4 * k, k=1, int(m, int32))], m, spread(10_int8, 1, int(m)), &
-      new_line_//'  </AppendedData>'//new_line_//'</VTKFile>'//new_line_
-    close (unit)
+      4 * m, [(4 * k, k=1, int(m, int32))], m, spread(10_int8, 1, int(m)), tail
+    call finish(unit, path, len(head(name, n, m)//tail, kind=int64) + 5 * 8 + 32 * n + 21 * m, stat)
   end subroutine
 
   function head(name, n, m) result(text)
