@@ -24,6 +24,7 @@ namespace tetlod::worker {
 namespace {
 
 constexpr int watch_interval = 100;  // milliseconds
+constexpr std::size_t usual_stack = std::size_t(8) << 20;
 
 /// Ctrl-C, the end of a terminal, and what a batch system sends to a job are for the host to answer; a full file system
 /// is an error of write().
@@ -43,14 +44,19 @@ void *watch_host(void *host) {
   ::_exit(0);
 }
 
-bool start_watching(std::int64_t host_pid) {
+bool start_thread(void *(*run)(void *), void *argument, std::size_t stack) {
   pthread_attr_t attributes;
   pthread_attr_init(&attributes);
-  pthread_attr_setstacksize(&attributes, std::size_t(1) << 16);  // the address space may be scarce
+  pthread_attr_setstacksize(&attributes, stack);
   pthread_t thread;
-  const int error = pthread_create(&thread, &attributes, watch_host, reinterpret_cast<void *>(std::intptr_t(host_pid)));
+  const int error = pthread_create(&thread, &attributes, run, argument);
   pthread_attr_destroy(&attributes);
   return error == 0;
+}
+
+bool start_watching(std::int64_t host_pid) {
+  constexpr std::size_t stack = std::size_t(1) << 16;  // the address space may be scarce
+  return start_thread(watch_host, reinterpret_cast<void *>(std::intptr_t(host_pid)), stack);
 }
 
 void limit(__rlimit_resource resource, std::uint64_t bytes) {
@@ -62,24 +68,22 @@ void limit(__rlimit_resource resource, std::uint64_t bytes) {
 
 /// As usual, as far as the host's limit allows; returns what it is.
 std::size_t raise_stack_limit() {
-  constexpr std::uint64_t usual = std::uint64_t(8) << 20;
   rlimit current;
   if (::getrlimit(RLIMIT_STACK, &current) != 0) return 0;
-  if (current.rlim_cur < usual) limit(RLIMIT_STACK, usual);
+  if (current.rlim_cur < usual_stack) limit(RLIMIT_STACK, usual_stack);
   return ::getrlimit(RLIMIT_STACK, &current) == 0 ? std::size_t(current.rlim_cur) : 0;
 }
 
 /// As much stack as TetGen is likely to want: where all of the address space is used up, it could not grow any more,
 /// and that would be a crash.
-void grow_stack() {
+void grow_stack(std::size_t most) {
   constexpr std::size_t wanted = std::size_t(1) << 19;
-  const std::size_t size = std::min(wanted, raise_stack_limit() / 2);
+  const std::size_t size = std::min(wanted, most / 2);
   auto *const stack = static_cast<volatile char *>(alloca(size));
   for (std::size_t i = 0; i < size; i += 1024) stack[i] = 0;
 }
 
 void limit_resources(std::uint64_t address_space) {
-  grow_stack();
   limit(RLIMIT_CORE, 0);
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // these reserve terabytes
   if (address_space) limit(RLIMIT_AS, address_space);
@@ -98,6 +102,19 @@ void serve(const protocol::Call &call) {
   protocol::Reply reply = tetrahedralize(call);
   ::malloc_trim(0);
   send_reply(reply);
+}
+
+void *serve_all(void *) {
+  protocol::Call call;
+  while (receive_call(call)) serve(call);
+  ::_exit(0);
+}
+
+/// On a stack of its own where the host's limit leaves too little for TetGen, if there is room for one.
+void serve_on_enough_stack(std::size_t stack) {
+  if (stack < usual_stack && start_thread(serve_all, nullptr, usual_stack))
+    for (;;) ::pause();
+  serve_all(nullptr);
 }
 
 /// An exception would run TetGen's destructors on structures that are half built.
@@ -123,9 +140,9 @@ int main() {
   protocol::Start start;
   if (!worker::receive(&start, sizeof start) || start.magic != protocol::magic) return worker::explain();
   if (!worker::start_watching(start.host_pid)) return protocol::no_thread;
+  const std::size_t stack = worker::raise_stack_limit();
+  worker::grow_stack(stack);
   worker::limit_resources(start.address_space);
   worker::greet();
-  protocol::Call call;
-  while (worker::receive_call(call)) worker::serve(call);
-  ::_exit(0);
+  worker::serve_on_enough_stack(stack);
 }

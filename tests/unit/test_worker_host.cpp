@@ -321,15 +321,39 @@ TEST_F(WorkerTest, EndsWithAKilledHost) {
     for (const bool forked : {false, true}) expect_worker_ends_with_host(busy, forked);
 }
 
+/// A sphere with points inside.
+struct LargeRequest {
+  LargeRequest(Memory &memory, std::size_t samples)
+      : surface(sphere(memory, 4)), points(surface.points.begin(), surface.points.end()) {
+    const auto inside = random_points(memory, samples, 0.6, [](const Vec3 &) { return true; });
+    points.insert(points.end(), inside.begin(), inside.end());
+  }
+  TetgenRequest like(TetgenRequest request) const {
+    request.points = {points.data(), points.size()};
+    request.triangles = surface.triangles;
+    return request;
+  }
+  Surface surface;
+  std::vector<Vec3> points;
+};
+
+/// TetGen's arrays on the stack want more.
+TEST_F(WorkerTest, LittleStack) {
+  const LargeRequest large(memory, 1000);
+  EXPECT_TRUE(in_a_child([&] {
+    constexpr rlim_t bytes = 160 << 10;
+    const rlimit little{bytes, bytes};
+    use(TETLOD_REMESH);
+    if (::setrlimit(RLIMIT_STACK, &little) != 0) return false;
+    worker->tetrahedralize(large.like(tetrahedron_request()), 0, job, reply);
+    return reply.code == 0 && !reply.tets.empty();
+  }));
+}
+
 TEST_F(WorkerTest, MemoryLimit) {
   if (sanitized) GTEST_SKIP();
-  const Surface surface = sphere(memory, 4);
-  const auto samples = random_points(memory, 50000, 0.6, [](const Vec3 &) { return true; });
-  std::vector<Vec3> points(surface.points.begin(), surface.points.end());
-  points.insert(points.end(), samples.begin(), samples.end());
-  TetgenRequest request = tetrahedron_request();
-  request.points = {points.data(), points.size()};
-  request.triangles = surface.triangles;
+  const LargeRequest large(memory, 50000);
+  const TetgenRequest request = large.like(tetrahedron_request());
   for (const std::uint64_t megabytes : {1, 8, 20, 40, 60, 80}) {
     use(TETLOD_REMESH, megabytes << 20);
     try {
