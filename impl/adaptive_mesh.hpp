@@ -33,6 +33,7 @@ class AdaptiveMesh : public TetComplex {
   Array<double> error;      ///< of each tet: the sum of squares at its probes
   Array<Probe<m>> probes;   ///< first those at original vertices
   std::size_t vertex_probes = 0;
+  double share_of_vertices = 1;                     ///< of the original vertices that tets use, those that have one
   std::size_t left_out = 0, vertices_left_out = 0;  ///< probes in no tet, and those at original vertices among them
   Array<std::int32_t> vertex_of_probe;              ///< the original vertex of each of those
   Array<std::uint8_t> outside;       ///< of each: it lies outside, the probe on the boundary; empty: none does

@@ -23,7 +23,7 @@ inline Span<const double> weights_of_attempts(const Budget &budget, const Option
   constexpr std::int64_t tets_of_all = 30000;
   const bool time_counts = options.effort != effort_accurate || options.time_limit > 0 || options.warm_start > 0;
   if (time_counts || options.max_error > 0 || keeps_all(budget, report)) return {};
-  return {weights, std::min(std::size(weights), std::size_t(tets_of_all / report.tets_in))};
+  return {weights, std::min(std::size(weights), std::size_t(tets_of_all / report.sound_tets()))};
 }
 
 /// The error counts, as a part of the range, and a little what planes that weigh less cost: the boundary's distance,

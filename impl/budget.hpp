@@ -27,7 +27,7 @@ constexpr double small_mesh = 1e5;
 /// along some direction asks for tets that do. A bound alone asks for accuracy.
 inline bool samples_sooner(const Options &options, const Report &report) {
   constexpr double little = 0.03, thin = 0.125, stretched = 0.004;
-  const double tets = double(report.tets_in), ratio = options.asked_ratio();
+  const double tets = double(report.sound_tets()), ratio = options.asked_ratio();
   return tets >= small_mesh && report.least_change >= stretched &&
          double(report.boundary_triangles_in) <= thin * tets && ratio > 0 && ratio <= little;
 }
@@ -42,13 +42,13 @@ inline bool collapses_edges(const Options &options, const Report &report) {
 inline int rounds_of(const Options &options, const Report &report) {
   constexpr double most = 12;
   if (options.effort != effort_accurate) return 0;
-  return int(std::min(small_mesh / double(report.tets_in), most));
+  return int(std::min(small_mesh / double(report.sound_tets()), most));
 }
 
 /// Where it matters most how soon it is there.
 inline bool is_hasty(const Options &options, const Report &report) {
   constexpr std::int64_t many = 100000;
-  return options.effort == effort_fast && options.max_error <= 0 && report.tets_in >= many;
+  return options.effort == effort_fast && options.max_error <= 0 && report.sound_tets() >= many;
 }
 
 /// What a target size is spent on.
@@ -89,7 +89,7 @@ inline double boundary_share(double ratio) { return std::pow(ratio, 0.8); }
 
 inline Budget budget_of(double ratio, const Report &report) {
   Budget budget;
-  const double whole = double(report.tets_in - report.dropped_tets), triangles = double(report.boundary_triangles_in);
+  const double whole = double(report.sound_tets()), triangles = double(report.boundary_triangles_in);
   budget.tets = std::int64_t(ratio * whole);
   // Of the tets; of a mesh that is nearly all boundary, what the few vertices inside leave.
   const double inside = tets_a_sample * ratio * double(report.interior_points_in);
@@ -113,13 +113,11 @@ inline Budget larger_budget(double ratio, double sigma, const Report &report) {
 }
 
 /// No tet has to go.
-inline bool keeps_all(const Budget &budget, const Report &report) {
-  return budget.tets >= report.tets_in - report.dropped_tets;
-}
+inline bool keeps_all(const Budget &budget, const Report &report) { return budget.tets >= report.sound_tets(); }
 
 /// What collapses left, where there was none. origin: of each point, the original vertex, or -1.
 inline bool is_the_original(const TetMesh &mesh, Span<const std::int32_t> origin, const Report &report) {
-  return std::int64_t(mesh.tets.size()) == report.tets_in - report.dropped_tets &&
+  return std::int64_t(mesh.tets.size()) == report.sound_tets() &&
          std::all_of(origin.begin(), origin.end(), [](std::int32_t v) { return v >= 0; });
 }
 

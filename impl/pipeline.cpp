@@ -85,7 +85,7 @@ class Pipeline : private Beginning {
   /// For the bound, beyond the original.
   bool has_grown() const {
     return options_.max_error > 0 && collapses_edges(options_, report_) &&
-           std::int64_t(mesh_.tets.size()) > report_.tets_in;
+           std::int64_t(mesh_.tets.size()) > report_.sound_tets();
   }
 
   /// By collapses, or from samples; where the one way leads to no sound mesh of the size, by the other, at last by

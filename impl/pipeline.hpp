@@ -92,6 +92,7 @@ struct Input {
 
 /// The rows of the paper's Table 2. Seconds by Stage.
 struct Report {
+  std::int64_t sound_tets() const { return tets_in - dropped_tets; }
   std::int64_t points_in = 0, tets_in = 0;
   std::int64_t merged_points = 0, nonfinite_points = 0, dropped_tets = 0, unused_points = 0;
   std::int64_t interior_points_in = 0;

@@ -49,9 +49,10 @@ std::size_t taken(double due) { return std::size_t(0.5 + due); }
 template <std::size_t m>
 void add_vertices(const MeshView &original, double most, Job &job, AdaptiveMesh<m> &mesh) {
   const Array<std::uint8_t> used = find_used(original.tets, original.points.size(), job);
-  const double share = std::min(1.0, most / double(std::count(used.begin(), used.end(), 1)));
+  const auto count = double(std::count(used.begin(), used.end(), 1));
+  const double share = mesh.share_of_vertices = std::min(1.0, most / count);
   const Span<const Values<m>> values = original.values<m>();
-  mesh.vertex_of_probe.reserve(std::size_t(std::min(most, double(used.size()))));
+  mesh.vertex_of_probe.reserve(std::size_t(std::min(most, count)));
   double due = 0;
   for (std::size_t v = 0; v < used.size(); v++) {
     if (!used[v]) continue;

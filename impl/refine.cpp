@@ -54,7 +54,7 @@ class Refinement {
     if (options_.follows_field) follow_field();
     insert(options_.before_lowering - count());
     fit_values(fit_steps, job_, mesh_);
-    if (enough.most_vertices < double(original_.points.size())) place_probes(original_, every_vertex(), job_, mesh_);
+    if (mesh_.share_of_vertices < 1) place_probes(original_, every_vertex(), job_, mesh_);
     if (options_.bound > 0) {
       hold_bound_outside_too();
     } else {
