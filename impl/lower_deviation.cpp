@@ -87,6 +87,7 @@ class DeviationLowering {
 
   bool serve(const Apart &apart) {
     const double limit = most_left * apart.distance;
+    served_ = apart.where == Apart::at_sample ? std::int64_t(apart.at) : -1;
     if (apart.where == Apart::at_sample) return serve_sample(apart.at, limit);
     if (apart.where == Apart::at_middle) return serve_middle(mesh_.boundary[apart.at], limit);
     return serve_vertex(std::int32_t(apart.at), limit);
@@ -214,7 +215,7 @@ class DeviationLowering {
   bool suits(const Aim &aim, double limit) {
     job_.poll(1);
     return aim.distance() <= limit && are_sound() && keeps_volume() &&
-           distances_.suit(change_.triangles, change_.fresh_triangles, limit);
+           distances_.suit(change_.triangles, change_.fresh_triangles, served_, limit);
   }
 
   bool are_sound() const {
@@ -247,6 +248,7 @@ class DeviationLowering {
   Array<std::int32_t> &origin_;
   BoundaryDistances distances_;
   double least_ = 0;                                        // distance that is served
+  std::int64_t served_ = -1;                                // original vertex, or -1
   std::size_t most_ = 0;                                    // tets
   const StarLists *tets_ = nullptr, *triangles_ = nullptr;  // as the sweep began
   Array<std::uint8_t> touched_;                             // vertices whose tets changed since
