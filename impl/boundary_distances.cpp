@@ -139,18 +139,16 @@ double BoundaryDistances::value_at(const Triangle &t, const Vec3 &weights, std::
   return std::min(high, std::max(low, weights[0] * of(0) + weights[1] * of(1) + weights[2] * of(2)));
 }
 
-bool BoundaryDistances::suit(Span<const std::int32_t> old, Span<const Triangle> fresh, std::int64_t served,
-                             double limit) {
-  return find_homes(old, fresh, served, limit) && find_middles(old, fresh, limit);
+bool BoundaryDistances::suit(Span<const std::int32_t> old, Span<const Triangle> fresh, const Goal &goal) {
+  return find_homes(old, fresh, goal) && find_middles(old, fresh, goal.limit);
 }
 
-bool BoundaryDistances::find_homes(Span<const std::int32_t> old, Span<const Triangle> fresh, std::int64_t served,
-                                   double limit) {
+bool BoundaryDistances::find_homes(Span<const std::int32_t> old, Span<const Triangle> fresh, const Goal &goal) {
   fresh_homes_.clear();
   for (std::int32_t t : old)
     for (std::int32_t s = first_[std::size_t(t)]; s >= 0; s = next_[std::size_t(s)]) {
       const Home home = home_among(fresh, s);
-      const double most = s == served ? limit : std::max(limit, of_sample_[std::size_t(s)]);
+      const double most = s == goal.served ? goal.limit : std::max(goal.limit, of_sample_[std::size_t(s)]);
       if (!(home.distance <= most)) return false;
       fresh_homes_.push_back(home);
     }

@@ -28,6 +28,13 @@ struct Aim {
   double distance() const { return glm::length(point - nearest); }
 };
 
+/// Of a change: all that is concerned is within the limit, or no farther off than before; the original vertex that is
+/// served, if one is (else -1), is within it.
+struct Goal {
+  double limit;
+  std::int64_t served;
+};
+
 class BoundaryDistances {
  public:
   /// to_original: its tree. origin: as in lower_deviation.
@@ -45,10 +52,9 @@ class BoundaryDistances {
   Aim aim_at(std::size_t sample) const;
   Aim aim_near(const Vec3 &p) const;
 
-  /// Whether what triangles stand for is within the limit with others in their places, or no farther off than before,
-  /// but for the original vertex that is served, if one is (else -1); and the middles of these, or no farther off than
-  /// theirs.
-  bool suit(Span<const std::int32_t> old, Span<const Triangle> fresh, std::int64_t served, double limit);
+  /// Whether the goal is reached for all that triangles stand for with others in their places, and for the middles of
+  /// these.
+  bool suit(Span<const std::int32_t> old, Span<const Triangle> fresh, const Goal &goal);
   /// Those that suited have come: the first ones into the old places, further ones after the last.
   void take(Span<const std::int32_t> old);
   /// The mesh's vertex has come there, or comes after the last.
@@ -68,7 +74,7 @@ class BoundaryDistances {
   double value_at(const Triangle &t, const Vec3 &weights, std::size_t field) const;
   double distance_of_middle(const Triangle &t) const;
   Home home_among(Span<const Triangle> fresh, std::int32_t sample) const;
-  bool find_homes(Span<const std::int32_t> old, Span<const Triangle> fresh, std::int64_t served, double limit);
+  bool find_homes(Span<const std::int32_t> old, Span<const Triangle> fresh, const Goal &goal);
   bool find_middles(Span<const std::int32_t> old, Span<const Triangle> fresh, double limit);
   const Array<double> &distances(Apart::Where where) const;
 

@@ -86,15 +86,14 @@ class DeviationLowering {
   }
 
   bool serve(const Apart &apart) {
-    const double limit = most_left * apart.distance;
-    served_ = apart.where == Apart::at_sample ? std::int64_t(apart.at) : -1;
-    if (apart.where == Apart::at_sample) return serve_sample(apart.at, limit);
-    if (apart.where == Apart::at_middle) return serve_middle(mesh_.boundary[apart.at], limit);
-    return serve_vertex(std::int32_t(apart.at), limit);
+    const Goal goal{most_left * apart.distance, apart.where == Apart::at_sample ? std::int64_t(apart.at) : -1};
+    if (apart.where == Apart::at_sample) return serve_sample(apart.at, goal);
+    if (apart.where == Apart::at_middle) return serve_middle(mesh_.boundary[apart.at], goal);
+    return serve_vertex(std::int32_t(apart.at), goal);
   }
 
   /// Takes the nearest of the mesh's boundary to an original vertex, or else one of the corners there as far.
-  bool serve_sample(std::size_t sample, double limit) {
+  bool serve_sample(std::size_t sample, const Goal &goal) {
     if (distances_.home(sample) < 0) return false;
     const Triangle home = mesh_.boundary[std::size_t(distances_.home(sample))];
     const TriangleInSpace triangle(mesh_.points, home);
@@ -105,38 +104,38 @@ class DeviationLowering {
     for (double part : parts_of_way) {
       const Aim aim = part < 1 ? distances_.aim_near(from + part * (to - from)) : distances_.aim_at(sample);
       for (std::size_t k = 0; k < 3; k++)
-        if (w[int(k)] > near_corner && move(home[k], aim, limit)) return true;
-      if (ends.size() > 1 && divide(ends, aim, limit)) return true;
+        if (w[int(k)] > near_corner && move(home[k], aim, goal)) return true;
+      if (ends.size() > 1 && divide(ends, aim, goal)) return true;
     }
-    return move_one(ends, to - from, limit);
+    return move_one(ends, to - from, goal);
   }
 
   /// Takes the middle of a triangle to the original's boundary, or else one of the corners as far.
-  bool serve_middle(const Triangle t, double limit) {
+  bool serve_middle(const Triangle t, const Goal &goal) {
     const Vec3 from = TriangleInSpace(mesh_.points, t).middle(), way = distances_.aim_near(from).nearest - from;
     FewVertices ends;
     for (std::int32_t v : t) ends.push(v);
     for (double part : parts_of_way)
-      if (divide(ends, distances_.aim_near(from + part * way), limit)) return true;
-    return move_one(ends, way, limit);
+      if (divide(ends, distances_.aim_near(from + part * way), goal)) return true;
+    return move_one(ends, way, goal);
   }
 
   /// Takes a vertex of the mesh's boundary to the original's.
-  bool serve_vertex(std::int32_t v, double limit) {
+  bool serve_vertex(std::int32_t v, const Goal &goal) {
     FewVertices alone;
     alone.push(v);
-    return move_one(alone, distances_.aim_near(point(v)).nearest - point(v), limit);
+    return move_one(alone, distances_.aim_near(point(v)).nearest - point(v), goal);
   }
 
   /// One of the vertices goes that way, or a part of it; where tets that would turn over are in the way, as near to
   /// there as they let it.
-  bool move_one(const FewVertices &vertices, const Vec3 &way, double limit) {
+  bool move_one(const FewVertices &vertices, const Vec3 &way, const Goal &goal) {
     for (double part : parts_of_way)
       for (std::int32_t v : vertices)
-        if (move(v, distances_.aim_near(point(v) + part * way), limit)) return true;
+        if (move(v, distances_.aim_near(point(v) + part * way), goal)) return true;
     for (double part : parts_of_way)
       for (std::int32_t v : vertices)
-        if (move_within(v, point(v) + part * way, limit)) return true;
+        if (move_within(v, point(v) + part * way, goal)) return true;
     return false;
   }
 
@@ -160,10 +159,10 @@ class DeviationLowering {
     return true;
   }
 
-  bool move(std::int32_t v, const Aim &aim, double limit) {
+  bool move(std::int32_t v, const Aim &aim, const Goal &goal) {
     if (!may_move(v)) return false;
     const Vec3 before = std::exchange(mesh_.points[std::size_t(v)], aim.point);
-    if (!suits(aim, limit)) {
+    if (!suits(aim, goal)) {
       mesh_.points[std::size_t(v)] = before;
       return false;
     }
@@ -174,19 +173,19 @@ class DeviationLowering {
     return true;
   }
 
-  bool move_within(std::int32_t v, Vec3 to, double limit) {
+  bool move_within(std::int32_t v, Vec3 to, const Goal &goal) {
     return may_move(v) && nearest_in_star(change_.fresh_tets, v, mesh_.points, to) &&
-           move(v, distances_.aim_near(to), limit);
+           move(v, distances_.aim_near(to), goal);
   }
 
   /// An edge or a triangle gets a vertex.
-  bool divide(const FewVertices &ends, const Aim &aim, double limit) {
+  bool divide(const FewVertices &ends, const Aim &aim, const Goal &goal) {
     if (!may_change(ends)) return false;
     const auto v = std::int32_t(mesh_.points.size());
     look_around(ends, v);
     if (mesh_.tets.size() + change_.fresh_tets.size() - change_.tets.size() > most_) return false;
     mesh_.points.push_back(aim.point);
-    if (!suits(aim, limit)) {
+    if (!suits(aim, goal)) {
       mesh_.points.pop_back();
       return false;
     }
@@ -211,11 +210,11 @@ class DeviationLowering {
     }
   }
 
-  /// Whether the tets are sound, and nothing that is concerned is farther off than the limit.
-  bool suits(const Aim &aim, double limit) {
+  /// Whether the tets are sound, and the goal is reached.
+  bool suits(const Aim &aim, const Goal &goal) {
     job_.poll(1);
-    return aim.distance() <= limit && are_sound() && keeps_volume() &&
-           distances_.suit(change_.triangles, change_.fresh_triangles, served_, limit);
+    return aim.distance() <= goal.limit && are_sound() && keeps_volume() &&
+           distances_.suit(change_.triangles, change_.fresh_triangles, goal);
   }
 
   bool are_sound() const {
@@ -248,7 +247,6 @@ class DeviationLowering {
   Array<std::int32_t> &origin_;
   BoundaryDistances distances_;
   double least_ = 0;                                        // distance that is served
-  std::int64_t served_ = -1;                                // original vertex, or -1
   std::size_t most_ = 0;                                    // tets
   const StarLists *tets_ = nullptr, *triangles_ = nullptr;  // as the sweep began
   Array<std::uint8_t> touched_;                             // vertices whose tets changed since

@@ -241,8 +241,10 @@ int vtkTetlodSimplify::RequestData(vtkInformation *, vtkInformationVector **inpu
   in.seconds_of_run = in.seconds_of_measuring = 0;
   in.aborted = false;
   this->SetErrorCode(vtkErrorCode::NoError);
-  make_empty(*output);
-  if (input == nullptr || input->GetNumberOfCells() == 0) return 1;
+  if (input == nullptr || input->GetNumberOfCells() == 0) {
+    make_empty(*output);
+    return 1;
+  }
   tetlod_status status = TETLOD_ERR_ARGUMENT;
   std::string message;
   try {

@@ -1,6 +1,8 @@
 #include "filter_fixture.hpp"
 
+#include <vtkCellData.h>
 #include <vtkExecutive.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
@@ -14,6 +16,16 @@ Grid cube_grid(const cli_test::Cube &cube) {
   reader->ReadAllScalarsOn();
   reader->Update();
   return reader->GetOutput();
+}
+
+void add_ghosts(vtkUnstructuredGrid &grid, Half half) {
+  vtkNew<vtkUnsignedCharArray> ghosts;
+  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
+  for (vtkIdType c = 0; c < grid.GetNumberOfCells(); c++) {
+    const bool is_lower = c < grid.GetNumberOfCells() / 2;
+    ghosts->InsertNextValue(is_lower == (half == Half::lower) ? vtkDataSetAttributes::DUPLICATECELL : 0);
+  }
+  grid.GetCellData()->AddArray(ghosts);
 }
 
 Listener::Listener(vtkTetlodSimplify &filter) {

@@ -23,6 +23,10 @@ using Grid = vtkSmartPointer<vtkUnstructuredGrid>;
 // The cube of mesh_file.hpp, read by VTK.
 Grid cube_grid(const cli_test::Cube &cube = {});
 
+// Cells that another part of the mesh has: of the cube, half of it.
+enum class Half { lower, upper };
+void add_ghosts(vtkUnstructuredGrid &grid, Half half);
+
 // Hears the errors and warnings of a filter and of its executive, which are then not printed.
 class Listener {
  public:

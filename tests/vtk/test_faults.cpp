@@ -8,7 +8,6 @@
 #include <vtkMultiBlockDataSet.h>
 #include <vtkPointData.h>
 #include <vtkTypeInt64Array.h>
-#include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,15 +19,6 @@
 namespace vtk_test {
 namespace {
 
-// Every cell below half of the height is another's.
-void add_ghosts(vtkUnstructuredGrid &grid) {
-  vtkNew<vtkUnsignedCharArray> ghosts;
-  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
-  for (vtkIdType c = 0; c < grid.GetNumberOfCells(); c++)
-    ghosts->InsertNextValue(c < grid.GetNumberOfCells() / 2 ? vtkDataSetAttributes::DUPLICATECELL : 0);
-  grid.GetCellData()->AddArray(ghosts);
-}
-
 TEST_F(Filter, ArraysThatAreTooShort) {
   for (const int type : {vtkDataObject::POINT, vtkDataObject::CELL}) {
     const Grid grid = cube_grid();
@@ -38,7 +28,7 @@ TEST_F(Filter, ArraysThatAreTooShort) {
     grid->GetAttributes(type)->AddArray(few);
     filter->SetInputData(grid);
     expect_failure("array 'few': 3 tuples for", TETLOD_ERR_ARGUMENT);
-    add_ghosts(*grid);
+    add_ghosts(*grid, Half::lower);
     grid->Modified();
     expect_failure("array 'few': 3 tuples for", TETLOD_ERR_ARGUMENT);
   }
@@ -48,7 +38,7 @@ TEST_F(Filter, WrongNumbersBesideGhosts) {
   const vtkIdType wrong[] = {-1, 343, 99999, vtkIdType{1} << 40};
   for (const vtkIdType number : wrong) {
     const Grid grid = cube_grid();
-    add_ghosts(*grid);
+    add_ghosts(*grid, Half::lower);
     vtkNew<vtkIdList> corners;
     grid->GetCellPoints(grid->GetNumberOfCells() - 1, corners);
     corners->SetId(2, number);
@@ -60,7 +50,7 @@ TEST_F(Filter, WrongNumbersBesideGhosts) {
 
 TEST_F(Filter, PointsKeepTheirNumbersBesideGhosts) {
   const Grid grid = cube_grid();
-  add_ghosts(*grid);
+  add_ghosts(*grid, Half::lower);
   grid->GetPointData()->GetScalars()->SetTuple1(342, std::numeric_limits<double>::quiet_NaN());
   filter->SetInputData(grid);
   expect_failure("vertex 342", TETLOD_ERR_MESH_NONFINITE);
@@ -76,7 +66,7 @@ TEST_F(Filter, TetsThatAreNotTheGridsCellsAreSaidToBe) {
   filter->RepairRepeatedOff();
   expect_failure("tet 1295", TETLOD_ERR_MESH_DEGENERATE);
   EXPECT_FALSE(listener.heard("split into"));
-  add_ghosts(*grid);
+  add_ghosts(*grid, Half::lower);
   grid->Modified();
   expect_failure("tet 647 (of the tets that the grid's solid cells are split into)", TETLOD_ERR_MESH_DEGENERATE);
 }

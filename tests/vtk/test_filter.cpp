@@ -220,11 +220,7 @@ TEST_F(Filter, CellsThatAreNotTetsAreSplit) {
 
 TEST_F(Filter, GhostCellsAreLeftOut) {
   const Grid grid = cube_grid();
-  vtkNew<vtkUnsignedCharArray> ghosts;
-  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
-  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); c++)
-    ghosts->InsertNextValue(c < grid->GetNumberOfCells() / 2 ? 0 : vtkDataSetAttributes::DUPLICATECELL);
-  grid->GetCellData()->AddArray(ghosts);
+  add_ghosts(*grid, Half::upper);
   filter->SetInputData(grid);
   double bounds[6];
   updated()->GetBounds(bounds);
