@@ -69,7 +69,6 @@ struct tetlod_context {
   tetlod::capi::Progress progress;
   tetlod::Options options;
   tetlod::Input input;
-  std::string scalars_name;
   tetlod::Worker worker;
   tetlod::Parallel parallel;
   tetlod::Prepared prepared{memory};               ///< of earlier runs, for the next

@@ -79,7 +79,7 @@ void require_weight(const char *name, double weight) {
 }
 
 void require_not_the_scalars(const tetlod_context &context, const char *name) {
-  if (context.input.scalars.present && context.scalars_name == name)
+  if (context.input.scalars.present && context.input.scalars_name == name)
     fail(Status::argument, "field %.100s: the scalars have this name", name);
 }
 

@@ -1,6 +1,5 @@
 // Running, and what is asked about a run while its input is still there.
 #include <algorithm>
-#include <cinttypes>
 
 #include "arguments.hpp"
 #include "carry_fields.hpp"
@@ -11,28 +10,6 @@
 namespace tetlod::capi {
 
 namespace {
-
-void require_a_value_a_point(const tetlod_context &context) {
-  const std::int64_t points = context.input.xyz[0].tuples, values = context.input.scalars.tuples;
-  if (values == points) return;
-  const bool named = !context.scalars_name.empty();
-  fail(Status::argument, "scalars%s%.100s: %" PRId64 " values for %" PRId64 " points", named ? " " : "",
-       context.scalars_name.c_str(), values, points);
-}
-
-void require_a_tuple_each(const Input &input) {
-  for (const SteeringField &field : input.steering)
-    if (field.values.tuples != input.xyz[0].tuples)
-      fail(Status::argument, "field %.100s: %" PRId64 " values for %" PRId64 " points", field.name.c_str(),
-           field.values.tuples, input.xyz[0].tuples);
-  for (const SubmittedField &field : input.fields) {
-    const bool of_cells = field.association == Association::cell;
-    const std::int64_t count = of_cells ? input.tets.tuples : input.xyz[0].tuples;
-    if (field.values.tuples != count)
-      fail(Status::argument, "field %.100s: %" PRId64 " tuples for %" PRId64 " %s", field.name.c_str(),
-           field.values.tuples, count, of_cells ? "tets" : "points");
-  }
-}
 
 std::unique_ptr<Outcome> fresh_outcome(tetlod_context &context) {
   auto outcome = std::make_unique<Outcome>(context.memory);
@@ -86,8 +63,6 @@ tetlod_status tetlod_run(tetlod_context *handle) {
   return entry(handle, [](tetlod_context &context) {
     begin(context);
     require_submitted(context.input);
-    require_a_value_a_point(context);
-    require_a_tuple_each(context.input);
     Job job(context.memory, context.parallel);
     connect_log(job, context);
     connect_progress(job, context);

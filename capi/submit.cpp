@@ -64,7 +64,7 @@ tetlod_status tetlod_submit_scalars(tetlod_context *handle, const char *name, co
     for (const SteeringField &field : context.input.steering)
       if (field.name == copy) fail(Status::argument, "scalars: field %.100s steers by this name already", name);
     context.input.scalars = scalars;
-    context.scalars_name.swap(copy);
+    context.input.scalars_name.swap(copy);
   });
 }
 
@@ -77,7 +77,6 @@ tetlod_status tetlod_submit_point_flags(tetlod_context *handle, const tetlod_arr
 tetlod_status tetlod_clear(tetlod_context *handle) {
   return entry(handle, [](tetlod_context &context) {
     context.input = Input{};
-    context.scalars_name.clear();
     context.prepared.forget(context.memory);
   });
 }

@@ -83,6 +83,7 @@ struct Input {
   StridedArray tets;                ///< four components
   std::int32_t index_base = 0;
   StridedArray scalars;                 ///< one component
+  std::string scalars_name;             ///< or empty
   StridedArray flags;                   ///< of points: uint8, one component, keep_vertex or lock_vertex; absent: none
   std::vector<SubmittedField> fields;   ///< names are unique; as many tuples as points or tets
   std::vector<SteeringField> steering;  ///< less than most_fields; names are none of those

@@ -254,31 +254,37 @@ bool any_repeated_vertex(Span<const Tet> tets, Job &job) {
   return culprit.any();
 }
 
-bool has_a_value_a_point(const Input &input) {
-  const std::int64_t points = input.xyz[0].tuples;
-  return input.scalars.tuples == points &&
-         std::all_of(input.steering.begin(), input.steering.end(),
-                     [&](const SteeringField &field) { return field.values.tuples == points; });
+void require_a_value_a_point(const Input &input) {
+  const auto points = static_cast<long long>(input.xyz[0].tuples),
+             values = static_cast<long long>(input.scalars.tuples);
+  if (values != points)
+    fail(Status::argument, "scalars%s%.100s: %lld values for %lld points", input.scalars_name.empty() ? "" : " ",
+         input.scalars_name.c_str(), values, points);
+  if (input.flags.present && input.flags.tuples != points)
+    fail(Status::argument, "%lld flags for %lld points", static_cast<long long>(input.flags.tuples), points);
+}
+
+void require_a_tuple_each(const Input &input, const std::string &name, std::int64_t tuples, Association association) {
+  const bool of_cells = association == Association::cell;
+  const std::int64_t count = of_cells ? input.tets.tuples : input.xyz[0].tuples;
+  if (tuples != count)
+    fail(Status::argument, "field %.100s: %lld tuples for %lld %s", name.c_str(), static_cast<long long>(tuples),
+         static_cast<long long>(count), of_cells ? "tets" : "points");
 }
 
 void check_counts(const Input &input) {
-  if (input.xyz[0].tuples == 0 || input.tets.tuples == 0)
-    fail(Status::mesh_empty, "the mesh has %lld points and %lld tets", static_cast<long long>(input.xyz[0].tuples),
-         static_cast<long long>(input.tets.tuples));
-  if (input.scalars.tuples != input.xyz[0].tuples)
-    fail(Status::argument, "%lld values for %lld points", static_cast<long long>(input.scalars.tuples),
-         static_cast<long long>(input.xyz[0].tuples));
+  const std::int64_t points = input.xyz[0].tuples, tets = input.tets.tuples;
+  if (points == 0 || tets == 0)
+    fail(Status::mesh_empty, "the mesh has %lld points and %lld tets", static_cast<long long>(points),
+         static_cast<long long>(tets));
+  require_a_value_a_point(input);
   for (const SteeringField &field : input.steering)
-    if (field.values.tuples != input.xyz[0].tuples)
-      fail(Status::argument, "field %.100s: %lld values for %lld points", field.name.c_str(),
-           static_cast<long long>(field.values.tuples), static_cast<long long>(input.xyz[0].tuples));
-  if (input.flags.present && input.flags.tuples != input.xyz[0].tuples)
-    fail(Status::argument, "%lld flags for %lld points", static_cast<long long>(input.flags.tuples),
-         static_cast<long long>(input.xyz[0].tuples));
-  for (std::int64_t count : {input.xyz[0].tuples, input.tets.tuples})
-    if (count > max_count)
-      fail(Status::mesh_too_large, "%lld points or tets, the most is %lld", static_cast<long long>(count),
-           static_cast<long long>(max_count));
+    require_a_tuple_each(input, field.name, field.values.tuples, Association::point);
+  for (const SubmittedField &field : input.fields)
+    require_a_tuple_each(input, field.name, field.values.tuples, field.association);
+  if (std::max(points, tets) > max_count)
+    fail(Status::mesh_too_large, "%lld points or tets, the most is %lld",
+         static_cast<long long>(std::max(points, tets)), static_cast<long long>(max_count));
 }
 
 }  // namespace
@@ -338,7 +344,8 @@ void prepare_with_boundary(const Input &input, const Options &options, Job &job,
 }
 
 bool renew_values(const Input &input, Job &job, Original &original) {
-  if (original.nonfinite_points > 0 || !has_a_value_a_point(input)) return false;
+  check_counts(input);
+  if (original.nonfinite_points > 0) return false;
   const auto points = std::size_t(input.xyz[0].tuples), tets = std::size_t(input.tets.tuples);
   if (original.points.empty() && !interleaved_doubles(input.xyz)) return false;
   if (original.points.empty()) original.view.points = {reinterpret_cast<const Vec3 *>(input.xyz[0].data), points};

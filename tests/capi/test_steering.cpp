@@ -263,7 +263,10 @@ TEST_F(Steering, WhatIsRefused) {
   EXPECT_EQ(tetlod_submit_scalars(context.get(), nullptr, &array), TETLOD_OK);
   const std::vector<double> few(7, 1);
   ASSERT_EQ(steer("c", 1, few), TETLOD_OK);
-  expect_failure(tetlod_run(context.get()), TETLOD_ERR_ARGUMENT, "field c: 7 values for 1331 points");
+  expect_failure(tetlod_run(context.get()), TETLOD_ERR_ARGUMENT, "field c: 7 tuples for 1331 points");
+  tetlod_mesh_report found{};
+  found.struct_size = sizeof found;
+  expect_failure(tetlod_check(context.get(), &found), TETLOD_ERR_ARGUMENT, "field c: 7 tuples for 1331 points");
   ASSERT_EQ(tetlod_clear(context.get()), TETLOD_OK);
   EXPECT_EQ(steer("d", 1, z), TETLOD_OK) << "nothing is there after clear";
 }
