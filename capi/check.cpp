@@ -1,6 +1,7 @@
 // Asked of what is submitted, before a run: its defects, and what the run would need.
 #include "arguments.hpp"
 #include "context.hpp"
+#include "prepare.hpp"
 #include "validate.hpp"
 #include "work.hpp"
 
@@ -77,6 +78,7 @@ tetlod_status tetlod_estimate_memory(tetlod_context *handle, uint64_t *bytes) {
     connect_log(job, context);
     connect_progress(job, context);
     const Input input = with_scalars(context.input);
+    check_counts(input);
     with_what_is_kept(context, [&] { *bytes = estimate_memory(input, context.options, context.prepared, job); });
   });
 }

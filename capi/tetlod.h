@@ -426,8 +426,8 @@ TETLOD_API tetlod_status tetlod_estimate_memory(tetlod_context *context, uint64_
  *   whether there is a warm start, without max-deviation: what sizes have in common, whichever came first;
  *   what culling found of each sample, if sigma, min-distance and boundary-leaf are also those of the last run.
  * The same means the same contents (by a fingerprint of 128 bits, taken anew in every run) in the same layout: arrays
- * may be changed in place, or submitted again. What is kept for that counts as memory of the context; a run that fails
- * in its work and tetlod_clear forget it, and a run that finds no memory first forgets it and tries again.
+ * may be changed in place, or submitted again. What is kept for that counts as memory of the context; a run or an
+ * estimate that fails in its work and tetlod_clear forget it, and what finds no memory first forgets it and tries again.
  *
  * Guarantees of a result: every tet has a positive volume, every face is used by one or two tets, the boundary is
  * closed, does not cross itself and has the components and the Euler characteristic of the original's, every value lies

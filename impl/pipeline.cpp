@@ -42,6 +42,7 @@ class Pipeline : private Beginning {
     } else {
       run_to_target(worker);
       if (options_.max_error > 0 && report_.max_error > options_.max_error) fail_bound();
+      tell_missed_size();
     }
     finish();
     carry();
@@ -98,12 +99,8 @@ class Pipeline : private Beginning {
       ladder_ = coarse.is_sound ? Ladder::first_rung : Ladder::whole;
       if (!reached && may_remesh(coarse)) reached = remesh_to_target(worker);
       if (!reached && coarse.is_sound && options_.max_error == 0) collapse_edges(true, coarse);
-    } else if (!remesh_to_target(worker)) {
-      if (options_.clean_edges == 0)
-        collapse_edges(true, coarse);
-      else if (job_.log && !mesh_.tets.empty())
-        job_.log(
-            1, text("remeshed to %zu tets, not %lld", mesh_.tets.size(), static_cast<long long>(budget_.tets)).c_str());
+    } else if (!remesh_to_target(worker) && options_.clean_edges == 0) {
+      collapse_edges(true, coarse);
     }
     if (!coarse.is_sound && mesh_.tets.empty()) {
       if (!options_.remesh)  // who remeshes has looked at that
@@ -175,7 +172,7 @@ class Pipeline : private Beginning {
     const std::string failure = coarse.wrong.empty() ? "" : "edges collapsed in vain: " + coarse.wrong;
     if (is_better(coarse, best)) best = std::move(coarse);
     if (failure.empty()) return true;
-    if (job_.log) job_.log(1, failure.c_str());
+    if (job_.log && failure != failure_) job_.log(1, failure.c_str());
     if (failure_.empty()) failure_ = failure;
     return false;
   }
@@ -217,6 +214,12 @@ class Pipeline : private Beginning {
   }
 
   double deviation_limit() const { return options_.max_deviation * original_.box.diagonal(); }
+
+  void tell_missed_size() const {
+    if (!job_.log || options_.max_error > 0 || meets_size(budget_, mesh_)) return;
+    const auto asked = static_cast<long long>(budget_.tets);
+    job_.log(1, text("the result has %zu tets, not %lld", mesh_.tets.size(), asked).c_str());
+  }
 
   [[noreturn]] void fail_bound() const {
     fail(Status::max_error, "%s", failed_bound(options_.max_error, beyond_, input_.index_base, report_).c_str());

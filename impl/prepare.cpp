@@ -264,11 +264,13 @@ void require_a_value_a_point(const Input &input) {
     fail(Status::argument, "%lld flags for %lld points", static_cast<long long>(input.flags.tuples), points);
 }
 
-void require_a_tuple_each(const Input &input, const std::string &name, std::int64_t tuples, Association association) {
+}  // namespace
+
+void check_count(const Input &input, const std::string &field, std::int64_t tuples, Association association) {
   const bool of_cells = association == Association::cell;
   const std::int64_t count = of_cells ? input.tets.tuples : input.xyz[0].tuples;
   if (tuples != count)
-    fail(Status::argument, "field %.100s: %lld tuples for %lld %s", name.c_str(), static_cast<long long>(tuples),
+    fail(Status::argument, "field %.100s: %lld tuples for %lld %s", field.c_str(), static_cast<long long>(tuples),
          static_cast<long long>(count), of_cells ? "tets" : "points");
 }
 
@@ -279,15 +281,11 @@ void check_counts(const Input &input) {
          static_cast<long long>(tets));
   require_a_value_a_point(input);
   for (const SteeringField &field : input.steering)
-    require_a_tuple_each(input, field.name, field.values.tuples, Association::point);
-  for (const SubmittedField &field : input.fields)
-    require_a_tuple_each(input, field.name, field.values.tuples, field.association);
+    check_count(input, field.name, field.values.tuples, Association::point);
   if (std::max(points, tets) > max_count)
     fail(Status::mesh_too_large, "%lld points or tets, the most is %lld",
          static_cast<long long>(std::max(points, tets)), static_cast<long long>(max_count));
 }
-
-}  // namespace
 
 int extreme_exponent(const Box &box) {
   constexpr int far_from_one = 100;

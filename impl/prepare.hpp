@@ -1,6 +1,7 @@
 // The caller's arrays become the mesh that the stages read: checked, coincident points merged, tets without volume out.
 #pragma once
 #include <cstdint>
+#include <string>
 
 #include "extract_boundary.hpp"
 #include "host_numbers.hpp"
@@ -46,9 +47,13 @@ struct Original {
 /// range of doubles; 0 unless they are extreme.
 int extreme_exponent(const Box &box);
 
+/// Throws Status::mesh_empty, argument (as many values and flags as points), mesh_too_large.
+void check_counts(const Input &input);
+/// The same for a field that has so many tuples.
+void check_count(const Input &input, const std::string &field, std::int64_t tuples, Association association);
+
 /// Coordinates so large or small that their sixth powers leave the range of doubles are scaled, exactly.
-/// Throws Status::argument (as many values and flags as points), mesh_empty, mesh_index, mesh_nonfinite,
-/// mesh_too_large.
+/// Throws what check_counts does, mesh_index, mesh_nonfinite.
 void prepare_original(const Input &input, const Options &options, Job &job, Original &original);
 
 /// What the boundary of the view leaves out, flat tets that hang on it and those given twice, is dropped, and points

@@ -297,6 +297,26 @@ TEST_F(Reuse, OtherLayouts) {
   }
 }
 
+/// Nothing of what is kept was touched.
+TEST_F(Reuse, WhatIsRefusedBeforeAnyWorkForgetsNothing) {
+  expect_fresh_bytes();
+  const std::int64_t few = std::int64_t(cube.values.size()) - 1;
+  tetlod_array array = array_of(TETLOD_FLOAT64, few, 1, cube.values.data());
+  ASSERT_EQ(tetlod_submit_scalars(context.get(), "few", &array), TETLOD_OK);
+  std::uint64_t bytes = 0;
+  EXPECT_EQ(tetlod_run(context.get()), TETLOD_ERR_ARGUMENT);
+  EXPECT_EQ(tetlod_estimate_memory(context.get(), &bytes), TETLOD_ERR_ARGUMENT);
+  submit(context.get(), cube);
+  ASSERT_EQ(tetlod_submit_field(context.get(), "ride", TETLOD_POINT_FIELD, &array), TETLOD_OK);
+  EXPECT_EQ(tetlod_run(context.get()), TETLOD_ERR_ARGUMENT);
+  tetlod_mesh_report found{};
+  found.struct_size = sizeof found;
+  EXPECT_EQ(tetlod_check(context.get(), &found), TETLOD_OK) << "fields are the run's alone";
+  array = array_of(TETLOD_FLOAT64, few + 1, 1, cube.values.data());
+  ASSERT_EQ(tetlod_submit_field(context.get(), "ride", TETLOD_POINT_FIELD, &array), TETLOD_OK);
+  EXPECT_EQ(expect_fresh_bytes().reused_tets, std::int64_t(cube.corners.size() / 4));
+}
+
 TEST_F(Reuse, ClearForgets) {
   expect_fresh_bytes();
   ASSERT_EQ(tetlod_clear(context.get()), TETLOD_OK);
