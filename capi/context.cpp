@@ -1,8 +1,6 @@
 // Versions, texts, and the life of a context.
 #include "context.hpp"
 
-#include <tbb/version.h>
-
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
@@ -115,7 +113,7 @@ const Message &message_of(const tetlod_context *handle) noexcept {
 
 constexpr char build_info[] =
     "tetlod " TETLOD_DOTTED(TETLOD_VERSION_MAJOR, TETLOD_VERSION_MINOR, TETLOD_VERSION_PATCH) " (MIT); "
-    "oneTBB " TBB_VERSION_STRING " (Apache-2.0), OpenMesh (BSD-3-Clause), "
+    "OpenMesh (BSD-3-Clause), "
     "GLM " TETLOD_DOTTED(GLM_VERSION_MAJOR, GLM_VERSION_MINOR, GLM_VERSION_PATCH) " (MIT); "
     "in a process of its own, tetlod-remesh: TetGen (AGPL-3.0)";
 

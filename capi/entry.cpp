@@ -99,7 +99,10 @@ Turn::Turn(tetlod_context &context, HostState &host) noexcept : context_(context
   if (taken_) context.host = &host;
 }
 
-UnusedMemory::~UnusedMemory() { context_.memory.give_unused_back(); }
+AfterWork::~AfterWork() {
+  context_.parallel = Parallel();
+  context_.memory.give_unused_back();
+}
 
 Turn::~Turn() {
   if (!taken_) return;

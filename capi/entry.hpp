@@ -79,13 +79,13 @@ void note_exception(Message &message, const char *callback) noexcept;
 /// The turn is not there: says so, where the calling thread may write.
 tetlod_status refused(tetlod_context &context) noexcept;
 
-/// Gives memory that a call has used back to the system, when the call is over.
-class UnusedMemory {
+/// When a call is over its threads end, and memory that it has used goes back to the system.
+class AfterWork {
  public:
-  explicit UnusedMemory(tetlod_context &context) noexcept : context_(context) {}
-  ~UnusedMemory();
-  UnusedMemory(const UnusedMemory &) = delete;
-  UnusedMemory &operator=(const UnusedMemory &) = delete;
+  explicit AfterWork(tetlod_context &context) noexcept : context_(context) {}
+  ~AfterWork();
+  AfterWork(const AfterWork &) = delete;
+  AfterWork &operator=(const AfterWork &) = delete;
 
  private:
   tetlod_context &context_;
@@ -99,7 +99,7 @@ tetlod_status entry(const tetlod_context *handle, Body &&body) noexcept {
   if (!context) return TETLOD_ERR_ARGUMENT;
   const Turn turn(*context, host);
   if (!turn) return refused(*context);
-  const UnusedMemory unused(*context);
+  const AfterWork after(*context);
   try {
     std::forward<Body>(body)(*context);
     return TETLOD_OK;

@@ -64,9 +64,9 @@ tetlod_status tetlod_run(tetlod_context *handle) {
   return entry(handle, [](tetlod_context &context) {
     begin(context);
     require_submitted(context.input);
-    check_counts(context.input);
     for (const SubmittedField &field : context.input.fields)
       check_count(context.input, field.name, field.values.tuples, field.association);
+    check_counts(context.input);
     Job job(context.memory, context.parallel);
     connect_log(job, context);
     connect_progress(job, context);

@@ -293,7 +293,7 @@ enum {
                                      collapsed before decimation [4, delta]; 0: off */
   TETLOD_OPT_BOUNDARY_LEAF = 7,   /* int, "boundary-leaf": triangles in a leaf of the culling tree [3.3], at most */
   TETLOD_OPT_TET_LEAF = 8,    /* int, "tet-leaf": tets that go down the tree of the points together [3.5], at most */
-  TETLOD_OPT_THREADS = 9,     /* int, "threads": 0 means one a core; never more than oneTBB has in this process */
+  TETLOD_OPT_THREADS = 9,     /* int, "threads": 0 means one a core; never more than the process has cores */
   TETLOD_OPT_SEED = 10,       /* int, "seed": of the random points at which tetlod_measure_error() compares */
   TETLOD_OPT_TIME_LIMIT = 11, /* real, "time-limit": seconds for a call that lists its status; 0: none */
   /* What happens to a defect of the mesh that can be repaired: int, TETLOD_POLICY_ERROR or TETLOD_POLICY_REPAIR. All

@@ -1,7 +1,7 @@
 // What the functions that do work in a context have in common: a fresh start, and the job that listens to the host.
 #include "work.hpp"
 
-#include <tbb/global_control.h>
+#include <sched.h>
 
 #include <algorithm>
 #include <thread>
@@ -10,16 +10,16 @@ namespace tetlod::capi {
 
 namespace {
 
-/// Not more than oneTBB would give: it prints a warning when it is asked for more.
-int threads_of(const Options &options) {
-  const std::size_t wanted = options.threads ? std::size_t(options.threads) : std::thread::hardware_concurrency();
-  if (wanted <= 1) return 1;
-  return int(std::min(wanted, tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)));
+/// That the process may use.
+std::size_t cores() {
+  cpu_set_t set;
+  return ::sched_getaffinity(0, sizeof set, &set) == 0 ? std::size_t(CPU_COUNT(&set))
+                                                       : std::thread::hardware_concurrency();
 }
 
-void renew_arena(tetlod_context &context) {
-  const int threads = threads_of(context.options);
-  if (context.parallel.threads() != threads) context.parallel = Parallel(threads);
+int threads_of(const Options &options) {
+  const std::size_t most = std::max(cores(), std::size_t(1));
+  return int(options.threads ? std::min(std::size_t(options.threads), most) : most);
 }
 
 bool host_cancels(tetlod_context &context, Stage stage, double fraction) {
@@ -89,7 +89,7 @@ void begin(tetlod_context &context) {
   context.cancel.store(false, std::memory_order_relaxed);
   context.callback_failure.set("");
   context.memory.reset_peak();
-  renew_arena(context);
+  context.parallel = Parallel(threads_of(context.options));
 }
 
 void connect_log(Job &job, tetlod_context &context) {

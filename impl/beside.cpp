@@ -4,23 +4,19 @@
 #include <thread>
 #include <utility>
 
-#include "arena.hpp"
-
 namespace tetlod {
 
 Beside::Beside(Job &job, std::function<void()> body) : job_(job), body_(std::move(body)) {
-  over_.store(false, std::memory_order_release);
-  taken_.store(false, std::memory_order_release);
-  Arena *const arena = job_.parallel.arena();
-  if (!arena) return;
-  group_.emplace();
-  arena->tasks.execute([this] { group_->run([this] { take(); }); });
+  if (!job_.parallel.crew()) return;
+  loop_.emplace(
+      1, OfBlock{this, [](const void *it, std::size_t) { static_cast<Beside *>(const_cast<void *>(it))->take(); }});
+  job_.parallel.crew()->open(*loop_, 1);
 }
 
 Beside::~Beside() {
-  if (!group_) return;
-  group_->cancel();
-  job_.parallel.arena()->tasks.execute([this] { group_->wait(); });
+  if (!loop_) return;
+  loop_->cancel();
+  job_.parallel.crew()->close(*loop_);
 }
 
 void Beside::finish() {

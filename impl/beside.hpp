@@ -1,12 +1,11 @@
 // What another thread does beside what this one goes on with.
 #pragma once
-#include <tbb/task_group.h>
-
 #include <atomic>
 #include <exception>
 #include <functional>
 #include <optional>
 
+#include "crew.hpp"
 #include "job.hpp"
 
 namespace tetlod {
@@ -28,8 +27,8 @@ class Beside {
 
   Job &job_;
   std::function<void()> body_;
-  std::optional<tbb::task_group> group_;  // with one thread nothing of oneTBB is touched
-  std::atomic<bool> taken_, over_;
+  std::optional<Loop> loop_;  // of one block, if there are helpers
+  std::atomic<bool> taken_{false}, over_{false};
   std::exception_ptr failure_;
 };
 

@@ -5,21 +5,16 @@
 #include <functional>
 #include <memory>
 
+#include "crew.hpp"
+
 namespace tetlod {
 
-/// oneTBB's threads. arena.hpp says what it is, for the few that hand it tasks: oneTBB's headers take long to compile.
-struct Arena;
-
-/// One arena per context; with one thread nothing of oneTBB is touched.
 class Parallel {
  public:
   explicit Parallel(int threads = 1);
-  ~Parallel();
-  Parallel(Parallel &&) noexcept;
-  Parallel &operator=(Parallel &&) noexcept;
 
   int threads() const noexcept { return threads_; }
-  Arena *arena() const noexcept { return arena_.get(); }  ///< null with one thread
+  Crew *crew() const noexcept { return crew_.get(); }  ///< null with one thread
 
   /// Whether what the calling thread does is of no use any more, because something that it is part of failed.
   bool is_cancelled() const;
@@ -49,15 +44,13 @@ class Parallel {
   }
 
  private:
-  /// A function of a block's number, of whatever type.
-  struct OfBlock {
-    const void *body;
-    void (*call)(const void *body, std::size_t block);
+  struct EndCrew {
+    void operator()(Crew *crew) const noexcept;
   };
   void for_all(std::size_t blocks, OfBlock run) const;
 
   int threads_;
-  std::unique_ptr<Arena> arena_;
+  std::unique_ptr<Crew, EndCrew> crew_;
 };
 
 }  // namespace tetlod

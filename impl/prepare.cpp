@@ -276,12 +276,12 @@ void check_count(const Input &input, const std::string &field, std::int64_t tupl
 
 void check_counts(const Input &input) {
   const std::int64_t points = input.xyz[0].tuples, tets = input.tets.tuples;
-  if (points == 0 || tets == 0)
-    fail(Status::mesh_empty, "the mesh has %lld points and %lld tets", static_cast<long long>(points),
-         static_cast<long long>(tets));
   require_a_value_a_point(input);
   for (const SteeringField &field : input.steering)
     check_count(input, field.name, field.values.tuples, Association::point);
+  if (points == 0 || tets == 0)
+    fail(Status::mesh_empty, "the mesh has %lld points and %lld tets", static_cast<long long>(points),
+         static_cast<long long>(tets));
   if (std::max(points, tets) > max_count)
     fail(Status::mesh_too_large, "%lld points or tets, the most is %lld",
          static_cast<long long>(std::max(points, tets)), static_cast<long long>(max_count));

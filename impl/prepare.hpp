@@ -47,7 +47,7 @@ struct Original {
 /// range of doubles; 0 unless they are extreme.
 int extreme_exponent(const Box &box);
 
-/// Throws Status::mesh_empty, argument (as many values and flags as points), mesh_too_large.
+/// Throws Status::argument (as many values and flags as points), mesh_empty, mesh_too_large.
 void check_counts(const Input &input);
 /// The same for a field that has so many tuples.
 void check_count(const Input &input, const std::string &field, std::int64_t tuples, Association association);
