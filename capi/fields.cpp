@@ -178,8 +178,10 @@ tetlod_status tetlod_fetch_stencil(const tetlod_context *handle, int32_t index_b
   return entry(handle, [&](tetlod_context &context) {
     require_index_base(index_base);
     const std::size_t points = last_outcome(context).result.mesh.points.size();
-    const StridedArray to_ids = checked_destination(ids, {"ids", 4, Shape::integers}, points);
-    const StridedArray to_weights = checked_destination(weights, {"weights", 4, Shape::reals}, points);
+    StridedArray to_ids = checked_destination(ids, {"ids", 4, Shape::integers}, points);
+    StridedArray to_weights = checked_destination(weights, {"weights", 4, Shape::reals}, points);
+    to_ids.tuples = to_weights.tuples = std::int64_t(points);
+    require_memory_of_its_own(to_weights, "weights", to_ids, "ids");
     const Stencil &stencil = stencil_of(context);
     write(to_ids, points, [&](std::size_t i, int c) { return stencil.ids[i][std::size_t(c)] + index_base; });
     write(to_weights, points, [&](std::size_t i, int c) { return stencil.weights[i][std::size_t(c)]; });

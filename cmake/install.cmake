@@ -12,7 +12,7 @@ install(TARGETS tetlod tetlod_static EXPORT tetlodTargets
 install(FILES ${PROJECT_SOURCE_DIR}/capi/tetlod.h ${PROJECT_SOURCE_DIR}/bindings/cpp/tetlod.hpp
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR}
-  COMPONENT library)
+  COMPONENT development)  # the library's package is one for each SONAME, side by side
 install(EXPORT tetlodTargets NAMESPACE tetlod:: DESTINATION ${TETLOD_CMAKE_DIR} COMPONENT development)
 export(EXPORT tetlodTargets NAMESPACE tetlod:: FILE ${PROJECT_BINARY_DIR}/cmake/tetlodTargets.cmake)  # for the build tree
 

@@ -1,4 +1,5 @@
-# Debian packages, one for each component of install.cmake: `./dev package`.
+# Debian packages, one for each component of install.cmake and the filter's in Python: `./dev package`. The plugin for
+# ParaView is for the one that it was built with, and in none.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME tetlod)
 set(CPACK_PACKAGE_CONTACT "The tetlod developers <tetlod@invalid>")
@@ -23,6 +24,7 @@ set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/cmake/trigg
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libtetlod-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "${name} (= ${PROJECT_VERSION})")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "tetlod, libopenmesh-dev, libvtk9-dev")  # static; the filter's header
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Headers, the Fortran module, files for CMake and pkg-config. MIT.")
 
 if(TARGET tetlod_cli)
@@ -32,10 +34,18 @@ if(TARGET tetlod_cli)
   set(CPACK_DEBIAN_TOOL_PACKAGE_DEPENDS "${name} (= ${PROJECT_VERSION}), tetlod-remesh")
   set(CPACK_COMPONENT_TOOL_DESCRIPTION "The command line tool. MIT.")
 endif()
+if(TARGET vtkTetlodPython)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-vtktetlod)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "tetlod (= ${PROJECT_VERSION}), python3-vtk9")
+  set(CPACK_COMPONENT_PYTHON_DESCRIPTION "The filter for VTK in Python. MIT.")
+endif()
 if(TARGET tetlod-remesh)
   list(APPEND CPACK_COMPONENTS_ALL worker)
   set(CPACK_DEBIAN_WORKER_PACKAGE_NAME tetlod-remesh)
   set(CPACK_DEBIAN_WORKER_PACKAGE_SECTION science)
   set(CPACK_COMPONENT_WORKER_DESCRIPTION "The worker process around TetGen that the library starts. AGPL-3.0-or-later.")
 endif()
+set(CPACK_SOURCE_IGNORE_FILES /\\.git/ "${PROJECT_SOURCE_DIR}/build" "${PROJECT_SOURCE_DIR}/out/")
 include(CPack)

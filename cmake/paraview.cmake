@@ -44,7 +44,7 @@ function(tetlod_add_paraview_plugin folder environment)
 endfunction()
 
 # ParaView's programs cannot load a library full of a sanitizer.
-if(NOT TETLOD_PARAVIEW STREQUAL OFF AND NOT TETLOD_SANITIZE)
+if(TETLOD_PARAVIEW AND NOT TETLOD_SANITIZE)
   if(NOT ParaView_DIR)
     tetlod_find_paraview(ParaView_DIR)
   endif()

@@ -56,5 +56,5 @@ if(TETLOD_VTK_PYTHON)
   set(package ${PROJECT_BINARY_DIR}/${TETLOD_PYTHON_DIR}/vtktetlod)
   file(WRITE ${package}/__init__.py
     "\"\"\"tetlod for VTK: from vtktetlod import vtkTetlodSimplify\"\"\"\nfrom .vtkTetlod import *\n")
-  install(FILES ${package}/__init__.py DESTINATION ${TETLOD_PYTHON_DIR}/vtktetlod)
+  install(FILES ${package}/__init__.py DESTINATION ${TETLOD_PYTHON_DIR}/vtktetlod COMPONENT python)
 endif()

@@ -272,7 +272,8 @@ Ending ChildProcess::end() noexcept {
   if (!has_handle()) {
     handle_.forget();
   } else {
-    ::syscall(SYS_pidfd_send_signal, handle_.number(), SIGKILL, nullptr, 0);
+    if (::syscall(SYS_pidfd_send_signal, handle_.number(), SIGKILL, nullptr, 0) != 0)
+      control_.close();  // where signals are refused it ends by that
     while (::waitid(idtype_t(wait_by_pidfd), id_t(handle_.number()), &information, WEXITED) < 0 && errno == EINTR) {
     }
     handle_.close();

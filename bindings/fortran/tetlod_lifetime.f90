@@ -186,7 +186,7 @@ contains
     if (associated(this%called)) user = c_loc(this%called)
   end function
 
-  subroutine call_log(user, level, message) bind(C)
+  subroutine call_log(user, level, message) bind(C, name="")
     type(c_ptr), value :: user, message
     integer(c_int32_t), value :: level
     type(callbacks), pointer :: called
@@ -194,7 +194,7 @@ contains
     call called%log(level, fortran_text(message), called%log_user)
   end subroutine
 
-  function call_progress(user, stage, fraction) result(cancelled) bind(C)
+  function call_progress(user, stage, fraction) result(cancelled) bind(C, name="")
     type(c_ptr), value :: user
     integer(c_int32_t), value :: stage
     real(c_double), value :: fraction

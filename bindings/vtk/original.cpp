@@ -92,6 +92,7 @@ Original original_of(vtkUnstructuredGrid *input, vtkInformation *steering, const
                      vtkInformation *flags, std::vector<std::string> &notes) {
   Original original;
   original.grid = input;
+  if (input->GetPoints() == nullptr) throw std::runtime_error("the grid has no points");
   require_tuples(*input->GetPointData(), input->GetNumberOfPoints(), "points");
   require_tuples(*input->GetCellData(), input->GetNumberOfCells(), "cells");
   vtkDataArray *field = steering_array(*original.grid, steering);

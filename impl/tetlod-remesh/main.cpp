@@ -55,7 +55,7 @@ bool start_thread(void *(*run)(void *), void *argument, std::size_t stack) {
 }
 
 bool start_watching(std::int64_t host_pid) {
-  constexpr std::size_t stack = std::size_t(1) << 16;  // the address space may be scarce
+  constexpr std::size_t stack = std::size_t(1) << 18;  // the address space may be scarce, what is preloaded large
   return start_thread(watch_host, reinterpret_cast<void *>(std::intptr_t(host_pid)), stack);
 }
 
