@@ -158,6 +158,36 @@ TEST_F(Extremes, NothingIsRoundedFlatNextToZero) {
   EXPECT_GT(refused, 0);
 }
 
+/// Of a scale whose powers are no doubles errors are those of any other scale.
+TEST_F(Extremes, ErrorsAreMeasuredAtAnyScale) {
+  cube = Cube(5);
+  tetlod_set_preset(context.get(), TETLOD_PRESET_FAST);
+  std::vector<std::vector<double>> errors;
+  for (int exponent : {0, 400, -400}) {
+    Cube scaled = cube;
+    for (double &x : scaled.xyz) x = std::ldexp(x, exponent);
+    submit(context.get(), scaled);
+    ASSERT_EQ(tetlod_run(context.get()), TETLOD_OK) << message_of(context.get());
+    tetlod_error_report error{};
+    error.struct_size = sizeof error;
+    ASSERT_EQ(tetlod_measure_error(context.get(), 2, &error), TETLOD_OK) << message_of(context.get());
+    errors.push_back({error.rms, error.max, error.outside, error.rms_inner, error.outside_inner});
+    EXPECT_EQ(errors.back(), errors.front()) << exponent;
+  }
+  EXPECT_GT(errors.front()[0], 0);
+}
+
+/// Some of the places that a result's vertices were given are no doubles.
+TEST_F(Extremes, WhatIsRoundedFarAwayIsRefused) {
+  for (int exponent : {-1070, -1068}) {
+    Cube scaled = cube;
+    for (double &x : scaled.xyz) x = std::ldexp(std::round(18 * x), exponent);
+    submit(context.get(), scaled);
+    EXPECT_EQ(tetlod_run(context.get()), TETLOD_ERR_MESH_DEGENERATE);
+    EXPECT_NE(message_of(context.get()).find("rounded far away"), std::string::npos) << message_of(context.get());
+  }
+}
+
 /// On a side of a cube that is turned lies a tet of 3e-35, exactly; doubles see it of -9e-19. Its corners are kept.
 TEST_F(Extremes, ASliverThatDoublesSeeTheOtherWayRoundKeepsTheBoundaryClosed) {
   constexpr double ca = -0.543820, sa = 0.839202, cb = -0.739185, sb = 0.673503;

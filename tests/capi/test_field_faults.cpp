@@ -54,6 +54,10 @@ TEST_F(Fields, TransferTakesMemoryOfItsOwn) {
   to = array_of(TETLOD_FLOAT64, points(), 1, pairs.data() + 1);
   expect_failure(tetlod_transfer(context.get(), &from, &to), TETLOD_ERR_ARGUMENT, "simplified: shares memory");
   EXPECT_EQ(pairs, before);
+  tetlod_array halves = array_of(TETLOD_FLOAT32, points(), 1, reinterpret_cast<unsigned char *>(pairs.data()) + 4);
+  halves.tuple_stride = from.tuple_stride;
+  expect_failure(tetlod_transfer(context.get(), &from, &halves), TETLOD_ERR_ARGUMENT, "simplified: shares memory");
+  EXPECT_EQ(pairs, before);
   to.tuple_stride = from.tuple_stride;
   ASSERT_EQ(tetlod_transfer(context.get(), &from, &to), TETLOD_OK) << message_of(context.get());
   const auto moved = move(field, 1);

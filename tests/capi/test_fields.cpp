@@ -294,6 +294,29 @@ TEST_F(Fields, TheSeedIsOfTheMeasurement) {
   EXPECT_EQ(rms[0], rms[2]);
 }
 
+/// Also where rounding puts a vertex beside the tet that it lies on a side of.
+TEST_F(Fields, WeightsOfTheStencilAreNotNegative) {
+  for (int cells : {4, 6, 9})
+    for (int preset : {TETLOD_PRESET_PAPER, TETLOD_PRESET_FAST, TETLOD_PRESET_ACCURATE}) {
+      cube = Cube(cells);
+      for (double *p = cube.xyz.data(); p != cube.xyz.data() + cube.xyz.size(); p += 3) {
+        const double x = 0.6 * p[0] - 0.8 * p[1] + 0.1 * p[2], y = 0.8 * x + 0.6 * p[1], z = 1.1 * p[2] + 0.3 * x;
+        p[0] = x;
+        p[1] = y;
+        p[2] = z;
+      }
+      submit(context.get(), cube);
+      ASSERT_EQ(tetlod_set_preset(context.get(), preset), TETLOD_OK);
+      run();
+      std::vector<std::int64_t> at(4 * points_out());
+      std::vector<double> of(4 * points_out());
+      tetlod_array ids = array_of(TETLOD_INT64, points_out(), 4, at.data());
+      tetlod_array weights = array_of(TETLOD_FLOAT64, points_out(), 4, of.data());
+      ASSERT_EQ(tetlod_fetch_stencil(context.get(), 0, &ids, &weights), TETLOD_OK) << message_of(context.get());
+      EXPECT_GE(*std::min_element(of.begin(), of.end()), 0) << cells << ' ' << preset;
+    }
+}
+
 TEST_F(Fields, WhatIsRefused) {
   const auto field = field_of(cube, 2, linear);
   tetlod_array array = array_of(TETLOD_FLOAT64, points(), 2, field.data());
@@ -334,9 +357,18 @@ TEST_F(Fields, WhatIsRefused) {
   array.tuples--;
   expect_failure(tetlod_transfer(context.get(), &array, &dst), TETLOD_ERR_ARGUMENT,
                  "215 tuples, the original mesh has 216");
+  array.tuples += 2;
+  expect_failure(tetlod_transfer(context.get(), &array, &dst), TETLOD_ERR_ARGUMENT, "217 tuples");
   tetlod_array ids = array_of(TETLOD_INT32, points_out(), 4, room.data()), weights = dst;
   expect_failure(tetlod_fetch_stencil(context.get(), 2, &ids, &weights), TETLOD_ERR_ARGUMENT, "index_base 2");
   expect_failure(tetlod_fetch_stencil(context.get(), 0, &ids, &weights), TETLOD_ERR_ARGUMENT, "weights: 2 components");
+  std::vector<double> both(8 * points_out(), -99);
+  ids = array_of(TETLOD_INT64, points_out() + 1, 4, both.data());  // of which the last tuple is left alone
+  weights = array_of(TETLOD_FLOAT64, points_out(), 4, both.data() + 4);
+  expect_failure(tetlod_fetch_stencil(context.get(), 0, &ids, &weights), TETLOD_ERR_ARGUMENT, "weights: shares memory");
+  EXPECT_EQ(both, std::vector<double>(both.size(), -99));
+  weights.data = both.data() + 4 * points_out();
+  EXPECT_EQ(tetlod_fetch_stencil(context.get(), 0, &ids, &weights), TETLOD_OK) << message_of(context.get());
   EXPECT_EQ(room, std::vector<double>(room.size(), -99));
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <random>
 #include <set>
 
 #include "fixtures.hpp"
@@ -194,6 +195,25 @@ TEST_F(Flags, ZerosChangeNothing) {
   flag(0, [](const Point &) { return true; });
   run();
   EXPECT_EQ(bytes_of(context.get()), bare);
+}
+
+/// Nothing is inserted into triangles of a boundary that is locked, however large the error there is.
+TEST_F(Flags, ALockedBoundaryGetsNoVertices) {
+  cube = Cube(8);
+  std::mt19937 random(8);
+  for (double &x : cube.xyz) {
+    const double s = 2 * x - 1, rest = 1 - std::abs(s);
+    x = 0.5 + (s < 0 ? -0.5 : 0.5) * (1 - rest * rest * rest);
+  }
+  for (double &value : cube.values) value = double(random() % 1000);
+  submit(context.get(), cube);
+  flag(TETLOD_FLAG_LOCK,
+       [](const Point &p) { return std::any_of(p.begin(), p.end(), [](double x) { return x == 0 || x == 1; }); });
+  tetlod_set_preset(context.get(), TETLOD_PRESET_ACCURATE);
+  tetlod_set_real(context.get(), TETLOD_OPT_TARGET_RATIO, 0.4);
+  run();
+  const tetlod_run_report report = report_of(context.get());
+  EXPECT_EQ(report.boundary_triangles_out, report.boundary_triangles_in);
 }
 
 TEST_F(Flags, WhatIsRefused) {

@@ -152,6 +152,10 @@ TEST(Host, ProgressThatThrowsCancels) {
   tetlod_set_progress(context.get(), throw_number, nullptr);
   EXPECT_EQ(tetlod_run(context.get()), TETLOD_ERR_CANCELLED);
   EXPECT_EQ(message_of(context.get()), "the progress callback threw an exception: no std::exception");
+  tetlod_set_progress(
+      context.get(), [](void *, std::int32_t, double) -> std::int32_t { return 1; }, nullptr);
+  EXPECT_EQ(tetlod_run(context.get()), TETLOD_ERR_CANCELLED);
+  EXPECT_EQ(message_of(context.get()), "cancelled by the progress callback") << "an exception is of its own run";
   tetlod_set_progress(context.get(), nullptr, nullptr);
   EXPECT_EQ(tetlod_run(context.get()), TETLOD_OK);
 }

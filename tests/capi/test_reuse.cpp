@@ -344,6 +344,23 @@ TEST_F(Reuse, MemoryThatIsShort) {
   context.reset();  // before its allocator goes
 }
 
+/// The same of a limit: what is kept of another size is no reason to fail.
+TEST_F(Reuse, MemoryThatIsLimited) {
+  cube = Cube(12);
+  const auto run = [&](tetlod_context *of, double ratio) {
+    tetlod_set_int(of, TETLOD_OPT_EFFORT, TETLOD_EFFORT_FAST);
+    tetlod_set_real(of, TETLOD_OPT_TARGET_RATIO, ratio);
+    submit(of, cube);
+    EXPECT_EQ(tetlod_run(of), TETLOD_OK) << message_of(of);
+    return report_of(of);
+  };
+  tetlod_config config = default_config();
+  config.memory_limit = run(make_context().get(), 0.9).peak_bytes / 10 * 11;
+  const Context limited = make_context(config);
+  run(limited.get(), 0.02);
+  EXPECT_EQ(run(limited.get(), 0.9).reused_tets, 0);
+}
+
 /// Values so far from those before that what these left is forgotten in the middle of a run for a bound.
 TEST_F(Reuse, WhatARunForABoundKeepsIsNotTakenForASize) {
   cube = Cube(10);

@@ -118,6 +118,19 @@ TEST(RunReport, CountsSamplesThatAreRemoved) {
   EXPECT_GT(apart.worker_peak_bytes, 1U << 20);
 }
 
+TEST(RunReport, ThePeakIsOfTheLastRun) {
+  const Context context = make_context();
+  const auto peak_of = [&](int cells) {
+    const Cube cube(cells);
+    submit(context.get(), cube);
+    EXPECT_EQ(tetlod_run(context.get()), TETLOD_OK) << message_of(context.get());
+    EXPECT_EQ(tetlod_clear(context.get()), TETLOD_OK);
+    return report_of(context.get()).peak_bytes;
+  };
+  const std::uint64_t large = peak_of(16);
+  EXPECT_LT(peak_of(4), large / 2);
+}
+
 TEST(RunReport, CountsInsertedPoints) {
   Ball ball;
   tetlod_set_preset(ball.context.get(), TETLOD_PRESET_ACCURATE);

@@ -65,6 +65,23 @@ TEST_F(SteeringRuns, EarlierRunsChangeNothing) {
   }
 }
 
+/// What collapses had in common with those for another weight is no part of it.
+TEST_F(SteeringRuns, OfAnotherWeightChangeNothing) {
+  cube = Cube(12);
+  const std::vector<double> steep = field_of(cube, 1, [](const Point &p, int) { return std::tanh(9 * (p[2] - 0.4)); });
+  const auto run_with = [&](tetlod_context *of, double weight) {
+    submit(of, cube);
+    const tetlod_array array = array_of(TETLOD_FLOAT64, steep.size(), 1, steep.data());
+    EXPECT_EQ(tetlod_submit_steering(of, "steep", weight, &array), TETLOD_OK);
+    EXPECT_EQ(tetlod_set_preset(of, TETLOD_PRESET_FAST), TETLOD_OK);
+    EXPECT_EQ(tetlod_run(of), TETLOD_OK) << message_of(of);
+    return bytes_of(of);
+  };
+  const Context used = make_context(), fresh = make_context();
+  run_with(used.get(), 1);
+  EXPECT_EQ(run_with(used.get(), 50), run_with(fresh.get(), 50));
+}
+
 TEST_F(SteeringRuns, ThreadsGiveTheSameBytes) {
   submit_all(context.get());
   run();
