@@ -154,6 +154,22 @@ TEST(Wrapper, ACallbacksExceptionComesOutOfTheCall) {
   EXPECT_NO_THROW(lod.run());
 }
 
+/// A log that throws is told more until the run ends.
+TEST(Wrapper, TheFirstExceptionComesOut) {
+  const Cube cube;
+  tetlod::Context lod = cube.submitted();
+  int calls = 0;
+  lod.set_real(TETLOD_OPT_TARGET_RATIO, 0.001);  // which cannot be had, as is told
+  lod.set_log([&](std::int32_t, const char *) { throw std::runtime_error(std::to_string(calls++)); }, 0);
+  try {
+    lod.run();
+    FAIL() << "nothing was thrown";
+  } catch (const std::runtime_error &error) {
+    EXPECT_STREQ(error.what(), "0");
+  }
+  EXPECT_GT(calls, 1) << "the test looks at nothing";
+}
+
 /// Runs with a progress function that lets its Context go at the first call; whether that function lived through its
 /// calls, and no longer than the run.
 template <class LetGo>

@@ -112,7 +112,7 @@ void misbehave() {
   if (is("prints for ever"))
     for (;;) std::printf("another line that nobody wants to read\n");
   if (is("prints")) {
-    for (int i = 0; i < 100000; i++) std::printf("line %d\n", i);
+    for (int i = 0; i < 100000; i++) std::printf("line %c%d\n", i == 0 ? '\0' : ' ', i);
     std::printf("%s", std::string(5000, 'x').c_str());
     std::fflush(stdout);
   }
@@ -145,7 +145,7 @@ void tamper(Arrays &arrays) {
   if (is("index negative")) arrays.tets[2] = -1;
   if (is("nan")) arrays.points[4] = std::numeric_limits<double>::quiet_NaN();
   if (is("more regions")) arrays.regions = {0, 1};
-  if (is("region too large")) arrays.regions = {5};
+  if (is("region too large")) arrays.regions = {2};  // of one tet
   if (is("region negative")) arrays.regions = {-1};
   if (is("too few points")) arrays.points.resize(9), arrays.tets = {0, 1, 2, 0};
   if (is("no points")) arrays.points.clear(), arrays.tets.clear();
@@ -170,6 +170,7 @@ void write_arrays(const Arrays &arrays) {
 }
 
 void tamper(Reply &reply) {
+  if (is("answers another call")) reply.number--;
   if (is("negative counts")) reply.points = -1;
   if (is("huge counts")) reply.tets = std::numeric_limits<std::int64_t>::max();
   if (is("more than written")) reply.points = 500000000;

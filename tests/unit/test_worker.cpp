@@ -98,9 +98,10 @@ TEST_F(WorkerTest, IsKilledOnce) {
 }
 
 TEST_F(WorkerTest, Lies) {
-  for (const char *mode : {"negative counts", "huge counts", "more than written", "less than written", "other regions",
-                           "more regions", "hole", "hole of terabytes", "index too large", "index negative", "nan",
-                           "region too large", "region negative", "short message", "long message"}) {
+  for (const char *mode :
+       {"negative counts", "huge counts", "more than written", "less than written", "other regions", "more regions",
+        "hole", "hole of terabytes", "index too large", "index negative", "nan", "region too large", "region negative",
+        "short message", "long message", "answers another call"}) {
     fake(mode);
     call();
     EXPECT_EQ(reply.code, worker_lied) << mode << ": " << reply.failure;
@@ -219,7 +220,7 @@ TEST_F(WorkerTest, PrintsALot) {
   EXPECT_TRUE(works());
   ASSERT_GT(lines.size(), 100u);
   EXPECT_LT(lines.size(), 300u);
-  EXPECT_EQ(lines[0], "tetlod-remesh: line 0");
+  EXPECT_EQ(lines[0], "tetlod-remesh: line 0") << "without its end of a text";
   fake("prints for ever");
   call(0.1);
   EXPECT_EQ(reply.code, worker_exhausted);

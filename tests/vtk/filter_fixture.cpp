@@ -18,12 +18,12 @@ Grid cube_grid(const cli_test::Cube &cube) {
   return reader->GetOutput();
 }
 
-void add_ghosts(vtkUnstructuredGrid &grid, Half half) {
+void add_ghosts(vtkUnstructuredGrid &grid, Half half, int kind) {
   vtkNew<vtkUnsignedCharArray> ghosts;
   ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
   for (vtkIdType c = 0; c < grid.GetNumberOfCells(); c++) {
     const bool is_lower = c < grid.GetNumberOfCells() / 2;
-    ghosts->InsertNextValue(is_lower == (half == Half::lower) ? vtkDataSetAttributes::DUPLICATECELL : 0);
+    ghosts->InsertNextValue(static_cast<unsigned char>(is_lower == (half == Half::lower) ? kind : 0));
   }
   grid.GetCellData()->AddArray(ghosts);
 }

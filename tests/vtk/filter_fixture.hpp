@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <vtkCommand.h>
 #include <vtkDataObject.h>
+#include <vtkDataSetAttributes.h>
 #include <vtkErrorCode.h>
 #include <vtkNew.h>
 #include <vtkSmartPointer.h>
@@ -25,7 +26,7 @@ Grid cube_grid(const cli_test::Cube &cube = {});
 
 // Cells that another part of the mesh has: of the cube, half of it.
 enum class Half { lower, upper };
-void add_ghosts(vtkUnstructuredGrid &grid, Half half);
+void add_ghosts(vtkUnstructuredGrid &grid, Half half, int kind = vtkDataSetAttributes::DUPLICATECELL);
 
 // Hears the errors and warnings of a filter and of its executive, which are then not printed.
 class Listener {

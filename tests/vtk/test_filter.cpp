@@ -219,13 +219,19 @@ TEST_F(Filter, CellsThatAreNotTetsAreSplit) {
 }
 
 TEST_F(Filter, GhostCellsAreLeftOut) {
-  const Grid grid = cube_grid();
-  add_ghosts(*grid, Half::upper);
-  filter->SetInputData(grid);
-  double bounds[6];
-  updated()->GetBounds(bounds);
-  EXPECT_EQ(bounds[5], 0.5) << "the upper half is another's";
-  EXPECT_EQ(grid->GetNumberOfCells(), 6 * 6 * 6 * 6) << "the input is as it was";
+  for (int kind : {vtkDataSetAttributes::DUPLICATECELL, vtkDataSetAttributes::HIDDENCELL}) {
+    const Grid grid = cube_grid();
+    add_ghosts(*grid, Half::upper, kind);
+    filter->SetInputData(grid);
+    double bounds[6];
+    updated()->GetBounds(bounds);
+    EXPECT_EQ(bounds[5], 0.5) << "the upper half is another's, or not to be seen";
+    EXPECT_FALSE(filter->GetOutput()->GetCellData()->HasArray(vtkDataSetAttributes::GhostArrayName()));
+    EXPECT_EQ(grid->GetNumberOfCells(), 6 * 6 * 6 * 6) << "the input is as it was";
+  }
+  tetlod_mesh_report report{};
+  report.struct_size = sizeof report;
+  EXPECT_EQ(tetlod_check(filter->GetContext(), &report), TETLOD_ERR_STATE) << "the grid's arrays are let go of";
 }
 
 TEST_F(Filter, FlaggedPointsSurvive) {
@@ -257,6 +263,9 @@ TEST_F(Filter, TheErrorIsMeasuredWhenAskedFor) {
   EXPECT_LE(filter->GetErrorRMS(), filter->GetErrorMaximum());
   EXPECT_EQ(filter->GetErrorOutside(), 0);
   EXPECT_GT(filter->GetSecondsOfRun(), 0);
+  filter->MeasureErrorOff();
+  updated();
+  EXPECT_EQ(filter->GetErrorRMS(), -1) << "nobody has measured this result";
 }
 
 TEST_F(Filter, ProgressGoesForwards) {
