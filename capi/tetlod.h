@@ -127,7 +127,7 @@ typedef struct tetlod_config {
                             address space of each process of tetlod-remesh (there is one a thread at most); 0: no
                             limit */
   const char *remesher;  /* path of tetlod-remesh; NULL: the environment's TETLOD_REMESHER (not for setuid programs),
-                            else  beside the library, else libexec/tetlod. Copied. */
+                            else beside the library, else libexec/tetlod. Copied. */
 } tetlod_config;
 
 /* What the last successful tetlod_run did: the rows of the paper's Table 2 [4]. Seconds that it waited, by the wall. */
@@ -148,9 +148,9 @@ typedef struct tetlod_run_report {
   /* the result */
   int64_t cleaned_edges; /* degenerate boundary edges removed before decimation (TETLOD_OPT_CLEAN_EDGES) */
   int64_t boundary_points_out, boundary_edges_out, boundary_triangles_out;
-  int64_t selected_samples;                  /* leaves of the sampling tree [3.1] */
+  int64_t selected_samples; /* leaves of the sampling tree [3.1], or what collapsing edges left inside */
   int64_t samples_outside, samples_too_near; /* removed [3.3] */
-  int64_t samples;                           /* what is left, or what collapsing edges left inside */
+  int64_t samples;                           /* what is left */
   int64_t steiner_points;                    /* added by the remeshing [3.4] */
   int64_t points_out, tets_out;
   int64_t remesh_attempts;  /* calls of TetGen for the boundary that was accepted, or the solid of it that took most;
@@ -241,7 +241,7 @@ TETLOD_API tetlod_status tetlod_create(const tetlod_config *config, tetlod_conte
 /* Ends a context, its result and its worker processes. NULL is allowed. */
 TETLOD_API void tetlod_destroy(tetlod_context *context);
 
-/* Copies the message of the last call that failed on this context (of this thread, for a NULL context: tetlod_create)
+/* Copies the message of the last call that failed on this context (of this thread, for a NULL context: of others)
  * into buffer, cut to capacity with its terminating zero, and returns the length of the whole message without the zero.
  * buffer may be NULL when capacity is 0. */
 TETLOD_API size_t tetlod_last_message(const tetlod_context *context, char *buffer, size_t capacity);
@@ -254,7 +254,7 @@ TETLOD_API tetlod_status tetlod_set_log(tetlod_context *context, tetlod_log_fn f
 /* stage: see tetlod_stage_name; fraction of that stage in [0, 1], never less than at the call before, if that was in
  * the same stage. Non-zero cancels the run. */
 typedef int32_t (*tetlod_progress_fn)(void *user, int32_t stage, double fraction);
-/* fn NULL: none (the default). Called every 5 to 50 ms by what lists TETLOD_ERR_TIME_LIMIT; of 8 M tets 300 at worst */
+/* fn NULL: none (the default). Called by what lists TETLOD_ERR_TIME_LIMIT as a stage begins, then every 5 to 50 ms. */
 TETLOD_API tetlod_status tetlod_set_progress(tetlod_context *context, tetlod_progress_fn fn, void *user);
 /* Makes the run, or other call that lists it, under way in another thread end with TETLOD_ERR_CANCELLED, as soon as
  * progress would be called. Without one under way it does nothing. */
@@ -427,7 +427,7 @@ TETLOD_API tetlod_status tetlod_estimate_memory(tetlod_context *context, uint64_
  *   what culling found of each sample, if sigma, min-distance and boundary-leaf are also those of the last run.
  * The same means the same contents (by a fingerprint of 128 bits, taken anew in every run) in the same layout: arrays
  * may be changed in place, or submitted again. What is kept for that counts as memory of the context; a run or an
- * estimate that fails in its work and tetlod_clear forget it, and what finds no memory first forgets it and tries again.
+ * estimate that fails in its work and tetlod_clear forget it, and where memory is short it goes first, for a new try.
  *
  * Guarantees of a result: every tet has a positive volume, every face is used by one or two tets, the boundary is
  * closed, does not cross itself and has the components and the Euler characteristic of the original's, every value lies

@@ -10,9 +10,7 @@
 
 namespace tetlod {
 
-namespace {
-constexpr int turn_milliseconds = 20;  // between two polls of the job
-}  // namespace
+namespace {}  // namespace
 
 double expected_seconds(std::size_t points) { return 1e-5 * double(points) + 1e-3; }
 
@@ -20,11 +18,6 @@ Worker::Worker(std::string path, std::uint64_t address_space)
     : path_(path.empty() ? find_remesher() : std::move(path)), address_space_(address_space) {}
 
 Worker::~Worker() = default;
-
-void Worker::tetrahedralize(const TetgenRequest &request, double seconds, Job &job, TetgenReply &reply) {
-  begin(0, request, seconds, job);
-  finish_any(job, reply);
-}
 
 void Worker::begin(std::size_t process, const TetgenRequest &request, double seconds, Job &job) {
   try {

@@ -54,15 +54,13 @@ class Worker {
   Worker(const Worker &) = delete;
   Worker &operator=(const Worker &) = delete;
 
-  /// Calls TetGen and waits, polling the job. `seconds` is the share of this attempt, of the worker's processor
-  /// time, of which waiting is a part (0: only the job's limit).
-  /// Throws Status::backend_missing (with the path looked at, or the version found), cancelled, time_limit, memory,
-  /// memory_limit. Everything else that goes wrong is a code in the reply.
-  void tetrahedralize(const TetgenRequest &request, double seconds, Job &job, TetgenReply &reply);
-
-  /// The same in two steps, so that several processes, numbered from 0, have a call each: begin() with one that has
-  /// none, and finish_any() gives the number of one whose call is over. What the request points to has to live until
-  /// then. When one of them throws all calls are over.
+  /// Has TetGen called; several processes, numbered from 0, may have a call each: begin() with one that has none, and
+  /// finish_any() waits, polling the job, and gives the number of one whose call is over. What the request points to
+  /// has to live until then. `seconds` is the share of this attempt, of the worker's processor time, of which waiting
+  /// is a part (0: only the job's limit). When one of them throws all calls are over. Throws Status::backend_missing
+  /// (with the path looked at, or the version found), cancelled, time_limit, memory, memory_limit, mesh_too_large,
+  /// state (the host has forked, or closed descriptors). Everything else that goes wrong with the process is a code in
+  /// the reply.
   void begin(std::size_t process, const TetgenRequest &request, double seconds, Job &job);
   std::size_t finish_any(Job &job, TetgenReply &reply);
   /// Kills the processes that are in the middle of a call.

@@ -17,7 +17,6 @@ namespace tetlod {
 
 namespace {
 
-constexpr int turn_milliseconds = 20;    // between two polls of the job
 constexpr double greeting_seconds = 30;  // for a loaded machine; usually 1 ms
 constexpr int worker_killed = 1004;      // beside the codes of TetgenReply: by somebody else
 

@@ -18,6 +18,8 @@
 
 namespace tetlod {
 
+constexpr int turn_milliseconds = 20;  ///< between two polls of the job
+
 /// Started by its first call. After an exception it is to be ended: it may be in the middle of a call.
 class WorkerProcess {
  public:

@@ -43,7 +43,7 @@ const char *meaning(int code) {
 
 // 272 assertions are compiled into libtet; the original would abort (and write a core).
 extern "C" [[gnu::visibility("default"), gnu::noreturn]] void __assert_fail(const char *expression, const char *,
-                                                                       unsigned line, const char *) noexcept {
+                                                                            unsigned line, const char *) noexcept {
   char text[sizeof tetlod::protocol::Reply::text];
   std::snprintf(text, sizeof text, "assertion at line %u: %s", line, expression);
   tetlod::worker::fail(tetlod::protocol::internal_error, text);

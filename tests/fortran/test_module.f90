@@ -104,8 +104,10 @@ contains
     real(real64), allocatable, target :: big(:, :, :), table(:, :)
     real(real32), allocatable, target :: single(:, :), single_values(:)
     integer(int64), allocatable, target :: long(:, :)
+    integer(int32), allocatable :: counted(:, :)
     type(tetlod_context) :: lod
     integer(int64) :: packed
+    integer :: stat
     allocate (big(2, 5, 2 * points), long(6, tets))
     call begin(lod)
     call submit_mesh(lod)
@@ -143,6 +145,8 @@ contains
     big(2, 2, :) = 2 * big(2, 2, :)
     call lod%run()
     call check_height(lod, 2d0 * cells)
+    call lod%fetch_tets(counted, index_base=5, stat=stat)
+    call expect(stat == TETLOD_ERR_ARGUMENT .and. .not. allocated(counted), "counted from 5")
     call lod%destroy()
   end subroutine
 
@@ -173,6 +177,8 @@ contains
     type(tetlod_context) :: lod
     real(real64), target :: flat(2, 4), one(3, 1)
     real(real64), allocatable :: out(:, :)
+    real(real64), allocatable, target :: wide(:, :)
+    integer(int32), pointer :: seen(:, :)
     real(real64) :: rho
     type(tetlod_bounds) :: bounds
     character(len=200) :: message
@@ -210,6 +216,12 @@ contains
     call expect(stat == TETLOD_OK, "no points")
     call lod%fetch_points(out, stat=stat)
     call expect(stat == TETLOD_ERR_STATE .and. .not. allocated(out), "nothing to fetch")
+    seen => corners
+    call lod%view_tets(seen, stat=stat)
+    call expect(stat == TETLOD_ERR_STATE .and. .not. associated(seen), "nothing to see")
+    allocate (wide(4294967299_int64, 0))  ! three more than an integer of 32 bits counts
+    call lod%submit_points(wide, stat=stat)
+    call expect(stat == TETLOD_ERR_ARGUMENT, "more components than fit")
     call tetlod_option_bounds(TETLOD_OPT_RHO, bounds)
     call expect(all(nint([bounds%least, bounds%most]) == [0, 1]) .and. bounds%is_integer == 0, "bounds of rho")
     call tetlod_option_bounds(-1, bounds, stat=stat)
@@ -346,7 +358,9 @@ program test_module
   use module_tests
   implicit none
   type(tetlod_context) :: none
-  if (command_argument_count() > 0) call none%run()
+  character(len=99) :: message
+  if (command_argument_count() == 1) call none%run()
+  if (command_argument_count() == 2) call none%run(errmsg=message)
   call make_mesh()
   call test_layouts()
   call test_failures()

@@ -40,7 +40,7 @@ TEST_F(WorkerTest, TetGenErrorIsACodeAndTheNextCallWorks) {
   request.switches = "pY";  // without Q
   int lines = 0;
   job.log = [&](int, const char *) { lines++; };
-  worker->tetrahedralize(request, 0, job, reply);
+  tetrahedralize(*worker, request, 0, job, reply);
   EXPECT_GT(lines, 0) << "what TetGen prints before it fails";
   EXPECT_EQ(reply.code, 3);
   EXPECT_EQ(reply.failure, "a self-intersection of the boundary");
@@ -52,7 +52,7 @@ TEST_F(WorkerTest, TetGenAssertionIsACode) {
   const std::vector<Vec3> identical(10, Vec3(1));
   TetgenRequest request = tetrahedron_request();
   request.points = {identical.data(), identical.size()};
-  worker->tetrahedralize(request, 0, job, reply);
+  tetrahedralize(*worker, request, 0, job, reply);
   EXPECT_NE(reply.code, 0);
   EXPECT_FALSE(reply.failure.empty());
   EXPECT_TRUE(works());
@@ -177,7 +177,7 @@ TEST_F(WorkerTest, TimeLimit) {
   Job limited(memory, parallel);
   limited.time_limit = 0.1;
   try {
-    worker->tetrahedralize(tetrahedron_request(), 0, limited, reply);
+    tetrahedralize(*worker, tetrahedron_request(), 0, limited, reply);
     FAIL();
   } catch (const Error &error) {
     EXPECT_EQ(error.status(), Status::time_limit);

@@ -345,7 +345,7 @@ TEST_F(WorkerTest, LittleStack) {
     const rlimit little{bytes, bytes};
     use(TETLOD_REMESH);
     if (::setrlimit(RLIMIT_STACK, &little) != 0) return false;
-    worker->tetrahedralize(large.like(tetrahedron_request()), 0, job, reply);
+    tetrahedralize(*worker, large.like(tetrahedron_request()), 0, job, reply);
     return reply.code == 0 && !reply.tets.empty();
   }));
 }
@@ -357,14 +357,14 @@ TEST_F(WorkerTest, MemoryLimit) {
   for (const std::uint64_t megabytes : {1, 8, 20, 40, 60, 80}) {
     use(TETLOD_REMESH, megabytes << 20);
     try {
-      worker->tetrahedralize(request, 0, job, reply);
+      tetrahedralize(*worker, request, 0, job, reply);
       FAIL() << megabytes << " MB: code " << reply.code << ", " << reply.failure;
     } catch (const Error &error) {
       EXPECT_EQ(error.status(), Status::memory_limit) << megabytes << ": " << error.what();
     }
   }
   use(TETLOD_REMESH, std::uint64_t(1) << 30);
-  worker->tetrahedralize(request, 0, job, reply);
+  tetrahedralize(*worker, request, 0, job, reply);
   EXPECT_EQ(reply.code, 0);
 }
 
@@ -378,7 +378,7 @@ TEST_F(WorkerTest, ManyAtOnce) {
       for (int round = 0; round < 10; round++) {
         Worker mine(TETLOD_REMESH);
         TetgenReply answer(own);
-        mine.tetrahedralize(tetrahedron_request(), 0, own_job, answer);
+        tetrahedralize(mine, tetrahedron_request(), 0, own_job, answer);
         good += answer.code == 0 && answer.tets.size() == 1;
       }
     });

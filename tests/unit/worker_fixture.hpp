@@ -23,6 +23,12 @@ namespace tetlod::test {
 
 using Clock = std::chrono::steady_clock;
 
+/// By the first process, alone.
+inline void tetrahedralize(Worker &worker, const TetgenRequest &request, double seconds, Job &job, TetgenReply &reply) {
+  worker.begin(0, request, seconds, job);
+  worker.finish_any(job, reply);
+}
+
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool sanitized = true;  // address space cannot be limited
 #else
@@ -116,7 +122,7 @@ class WorkerTest : public testing::Test {
     return request;
   }
 
-  void call(double seconds = 0) { worker->tetrahedralize(tetrahedron_request(), seconds, job, reply); }
+  void call(double seconds = 0) { tetrahedralize(*worker, tetrahedron_request(), seconds, job, reply); }
   bool works() {
     call();
     return reply.code == 0 && reply.tets.size() == 1;
