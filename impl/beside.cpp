@@ -4,6 +4,8 @@
 #include <thread>
 #include <utility>
 
+#include "status.hpp"
+
 namespace tetlod {
 
 Beside::Beside(Job &job, std::function<void()> body) : job_(job), body_(std::move(body)) {
@@ -16,7 +18,10 @@ Beside::Beside(Job &job, std::function<void()> body) : job_(job), body_(std::mov
 Beside::~Beside() {
   if (!loop_) return;
   loop_->cancel();
-  job_.parallel.crew()->close(*loop_);
+  try {
+    job_.parallel.crew()->close(*loop_);
+  } catch (const Error &) {  // where nobody is at it any more
+  }
 }
 
 void Beside::finish() {
@@ -24,6 +29,7 @@ void Beside::finish() {
   take();
   while (!over_.load(std::memory_order_acquire)) {
     job_.poll(0);
+    job_.parallel.crew()->require_here();
     std::this_thread::sleep_for(soon);
   }
   if (failure_) std::rethrow_exception(failure_);

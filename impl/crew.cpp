@@ -28,14 +28,15 @@ void relax() {
 #endif
 }
 
-/// A thread that gets none of the host's signals.
+/// A thread that gets none of the host's signals, but for its own faults.
 bool start(void *(*body)(void *), void *argument, pthread_t &thread) {
   pthread_attr_t attributes;
   if (::pthread_attr_init(&attributes) != 0) return false;
   ::pthread_attr_setstacksize(&attributes, stack_bytes);
-  sigset_t all, before;
-  ::sigfillset(&all);
-  ::pthread_sigmask(SIG_SETMASK, &all, &before);
+  sigset_t others, before;
+  ::sigfillset(&others);
+  for (int fault : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTRAP, SIGABRT, SIGSYS}) ::sigdelset(&others, fault);
+  ::pthread_sigmask(SIG_SETMASK, &others, &before);
   const bool started = ::pthread_create(&thread, &attributes, body, argument) == 0;
   ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
   ::pthread_attr_destroy(&attributes);
@@ -98,6 +99,10 @@ Crew::~Crew() {
 
 bool Crew::is_elsewhere() const { return ::getpid() != process_; }
 
+void Crew::require_here() const {
+  if (is_elsewhere()) fail(Status::state, "the host has forked in a callback, and goes on in the new process");
+}
+
 void Crew::open(Loop &loop, std::size_t helpers) {
   const std::lock_guard<std::mutex> lock(mutex_);
   loop.opened_before_ = std::exchange(opened_last_, &loop);
@@ -111,7 +116,7 @@ void Crew::close(Loop &loop) {
   unlink(loop);
   loop.closed_ = true;
   while (loop.helpers_ > 0) {
-    if (is_elsewhere()) fail(Status::state, "the host has forked in a callback, and goes on in the new process");
+    require_here();
     if (Loop *const part = find_work(&loop))
       help(*part, lock);
     else

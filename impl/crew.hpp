@@ -61,12 +61,14 @@ class Crew {
 
   /// Up to so many helpers take part from now on.
   void open(Loop &loop, std::size_t helpers);
-  /// Nobody takes a part any more; waits for those that do, and takes part in what are parts of the loop. Throws
-  /// Status::state in a process that was forked meanwhile, where nobody ends.
+  /// Nobody takes a part any more; waits for those that do, and takes part in what are parts of the loop. Throws as
+  /// require_here() does.
   void close(Loop &loop);
 
-  /// Of the process that was forked while a loop was open: nothing may be done with it, not even its end.
+  /// In a process that was forked while a loop was open nothing may be done with it, not even its end.
   bool is_elsewhere() const;
+  /// Throws Status::state there, where no helper ends what it is at.
+  void require_here() const;
 
  private:
   struct Sleepers {

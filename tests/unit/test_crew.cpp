@@ -88,7 +88,7 @@ TEST_P(OfACrew, WhatABlockThrowsEndsTheLoopsInsideOfOthers) {
   EXPECT_EQ(counts_of(9), std::vector<int>(9, 1)) << "the next loop knows nothing of it";
 }
 
-/// Signals are for the host's threads.
+/// Signals are for the host's threads, but for faults.
 TEST_P(OfACrew, HelpersTakeNoSignals) {
   const std::thread::id here = std::this_thread::get_id();
   std::atomic<int> begun{0}, open{0};
