@@ -129,8 +129,6 @@ tetlod_status status_of_exception(Message &message) noexcept {
     return fail_with(message, error.status(), error.what());
   } catch (const std::bad_alloc &) {
     return fail_with(message, Status::memory, "operator new had no more memory");
-  } catch (const std::runtime_error &error) {  // oneTBB's, when the system has no more threads for it
-    return fail_with(message, Status::memory, error.what());
   } catch (const std::exception &error) {
     return fail_with(message, Status::internal, error.what());
   } catch (...) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "crew.hpp"
 #include "status.hpp"
 #include "tetlod.h"
 
@@ -23,8 +24,8 @@ struct Message {
 Message &thread_message() noexcept;
 
 /// Puts aside what belongs to the host's thread, for the duration of a call: errno, the floating-point state (rounding,
-/// traps, flags, flush to zero), and pthread cancellation, which would unwind through oneTBB. The library computes in
-/// the default state; a result must not depend on what a host has set.
+/// traps, flags, flush to zero), and pthread cancellation, which would unwind through us. The library computes in the
+/// default state; a result must not depend on what a host has set, nor on the run whose callback it calls us in.
 class HostState {
  public:
   HostState() noexcept;
@@ -37,6 +38,7 @@ class HostState {
   std::fenv_t environment_;
   int errno_;
   int cancellation_ = 0;
+  Loop::Apart apart_;
 };
 
 /// The scope of a callback: the host's own code runs in the host's floating-point state, and keeps what it sets there.

@@ -57,26 +57,30 @@ void Loop::take_part() {
     try {
       run_.call(run_.body, block);
     } catch (...) {
-      cancel();
       if (!failed_.exchange(true)) failure_ = std::current_exception();
+      cancel();  // what others throw for that comes later
     }
   }
   current = before;
 }
 
-void Loop::rethrow() const {
+void Loop::require_done() const {
   if (failure_) std::rethrow_exception(failure_);
+  if (is_cancelled()) fail(Status::cancelled, "cancelled with the work that this is part of");
 }
 
 bool Loop::has_more() const { return next_.load(std::memory_order_relaxed) < blocks_ && !is_cancelled(); }
 
 bool Loop::is_cancelled() const {
   for (const Loop *loop = this; loop; loop = loop->whole_)
-    if (loop->cancelled_.load(std::memory_order_relaxed)) return true;
+    if (loop->cancelled_.load(std::memory_order_acquire)) return true;
   return false;
 }
 
 bool Loop::current_is_cancelled() { return current && current->is_cancelled(); }
+
+Loop::Apart::Apart() noexcept : before_(std::exchange(current, nullptr)) {}
+Loop::Apart::~Apart() { current = before_; }
 
 bool Loop::is_part_of(const Loop &other) const {
   for (const Loop *loop = this; loop; loop = loop->whole_)
@@ -104,6 +108,7 @@ void Crew::require_here() const {
 }
 
 void Crew::open(Loop &loop, std::size_t helpers) {
+  require_here();
   const std::lock_guard<std::mutex> lock(mutex_);
   loop.opened_before_ = std::exchange(opened_last_, &loop);
   while (threads_.size() < std::min(helpers, most_))
@@ -112,11 +117,11 @@ void Crew::open(Loop &loop, std::size_t helpers) {
 }
 
 void Crew::close(Loop &loop) {
+  require_here();
   std::unique_lock<std::mutex> lock(mutex_);
   unlink(loop);
   loop.closed_ = true;
   while (loop.helpers_ > 0) {
-    require_here();
     if (Loop *const part = find_work(&loop))
       help(*part, lock);
     else

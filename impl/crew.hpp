@@ -27,12 +27,25 @@ class Loop {
 
   /// Until no block is left to take, or it is cancelled, as it is by one that throws.
   void take_part();
-  void cancel() { cancelled_.store(true, std::memory_order_relaxed); }
-  /// Throws what one of its blocks has thrown, after it was closed.
-  void rethrow() const;
+  void cancel() { cancelled_.store(true, std::memory_order_release); }
+  /// After it was closed: throws what one of its blocks has thrown, or Status::cancelled where blocks may be left.
+  void require_done() const;
 
   /// Of the loop that the calling thread is at a block of, or one that this is a part of.
   static bool current_is_cancelled();
+
+  /// What the calling thread does is no part of the loop that it is at a block of, as long as this is there: a host may
+  /// call the library for another mesh in a callback.
+  class Apart {
+   public:
+    Apart() noexcept;
+    ~Apart();
+    Apart(const Apart &) = delete;
+    Apart &operator=(const Apart &) = delete;
+
+   private:
+    const Loop *const before_;
+  };
 
  private:
   friend class Crew;
@@ -59,7 +72,7 @@ class Crew {
   Crew(const Crew &) = delete;
   Crew &operator=(const Crew &) = delete;
 
-  /// Up to so many helpers take part from now on.
+  /// Up to so many helpers take part from now on. Throws as require_here() does.
   void open(Loop &loop, std::size_t helpers);
   /// Nobody takes a part any more; waits for those that do, and takes part in what are parts of the loop. Throws as
   /// require_here() does.

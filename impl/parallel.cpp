@@ -21,7 +21,7 @@ void Parallel::for_all(std::size_t blocks, OfBlock run) const {
   crew_->open(loop, blocks - 1);
   loop.take_part();
   crew_->close(loop);
-  loop.rethrow();
+  loop.require_done();
 }
 
 }  // namespace tetlod

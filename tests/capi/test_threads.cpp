@@ -1,6 +1,7 @@
 // Contexts side by side, threads inside one, and one context in the hands of two threads.
 #include <pthread.h>
 
+#include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <thread>
@@ -28,6 +29,43 @@ TEST(Threads, EachWithAContextOfItsOwn) {
     });
   for (std::thread &thread : threads) thread.join();
   EXPECT_EQ(wrong, 0);
+}
+
+/// The host cancels a run in its callback, and goes on with another mesh there: that is no part of the run, whose other
+/// thread has ended by then.
+struct Meanwhile {
+  tetlod_context *cancelled;
+  const Cube &other;
+  int left;  // calls until then
+  std::vector<unsigned char> bytes;
+
+  static std::int32_t progress(void *user, std::int32_t, double) {
+    auto &self = *static_cast<Meanwhile *>(user);
+    if (self.left-- != 0) return 0;
+    tetlod_cancel(self.cancelled);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    const Context context = make_context();
+    tetlod_set_int(context.get(), TETLOD_OPT_THREADS, 2);
+    submit(context.get(), self.other);
+    EXPECT_EQ(tetlod_run(context.get()), TETLOD_OK) << message_of(context.get());
+    self.bytes = bytes_of(context.get());
+    return 0;
+  }
+};
+
+TEST(Threads, AnotherMeshInTheCallbackOfARunThatIsCancelled) {
+  const Cube large(24), other(8);
+  const auto wanted = undisturbed(other);
+  for (int calls = 0; calls < 12 && !HasFailure(); calls++) {
+    const Context context = make_context();
+    tetlod_set_int(context.get(), TETLOD_OPT_THREADS, 2);
+    tetlod_set_preset(context.get(), TETLOD_PRESET_FAST);
+    submit(context.get(), large);
+    Meanwhile meanwhile{context.get(), other, calls, {}};
+    tetlod_set_progress(context.get(), Meanwhile::progress, &meanwhile);
+    EXPECT_EQ(tetlod_run(context.get()), TETLOD_ERR_CANCELLED) << calls;
+    EXPECT_EQ(meanwhile.bytes, wanted) << calls;
+  }
 }
 
 /// A solver that simplifies each of its meshes at every step.

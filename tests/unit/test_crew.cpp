@@ -88,6 +88,22 @@ TEST_P(OfACrew, WhatABlockThrowsEndsTheLoopsInsideOfOthers) {
   EXPECT_EQ(counts_of(9), std::vector<int>(9, 1)) << "the next loop knows nothing of it";
 }
 
+TEST_P(OfACrew, WhatIsApartIsDoneWhereTheLoopAroundItIsCancelled) {
+  const auto fails = [&] {
+    parallel.for_blocks(2, 1, [&](std::size_t b, std::size_t) {
+      if (b == 0) throw std::runtime_error("the first");
+      while (!parallel.is_cancelled()) std::this_thread::yield();
+      EXPECT_THROW(counts_of(9), Error);
+      const Loop::Apart apart;
+      const Parallel other(2);
+      std::atomic<int> blocks{0};
+      other.for_blocks(9, 1, [&](std::size_t, std::size_t) { blocks++; });
+      EXPECT_EQ(blocks, 9);
+    });
+  };
+  for (int turn = 0; turn < 20; turn++) EXPECT_THROW(fails(), std::runtime_error);
+}
+
 /// Signals are for the host's threads, but for faults.
 TEST_P(OfACrew, HelpersTakeNoSignals) {
   const std::thread::id here = std::this_thread::get_id();
