@@ -71,6 +71,16 @@ TEST_F(Filter, TetsThatAreNotTheGridsCellsAreSaidToBe) {
   expect_failure("tet 647 (of the tets that the grid's solid cells are split into)", TETLOD_ERR_MESH_DEGENERATE);
 }
 
+TEST_F(Filter, CellsWithoutPoints) {
+  vtkNew<vtkUnstructuredGrid> grid;
+  grid->SetCells(VTK_TETRA, cube_grid()->GetCells());
+  vtkNew<vtkDoubleArray> none;
+  none->SetName("none");
+  grid->GetPointData()->SetScalars(none);
+  filter->SetInputData(grid);
+  expect_failure("the grid has no points", TETLOD_ERR_ARGUMENT);
+}
+
 // VTK's writer wants points and cells, be they none.
 TEST_F(Filter, WhatIsEmptyCanBeWritten) {
   filter->SetInputData(vtkNew<vtkUnstructuredGrid>());
