@@ -4,7 +4,7 @@
 #
 # What the tool and the tests need of VTK is found here, too: VTK's targets are of the folder that finds them first.
 find_package(VTK 9 REQUIRED COMPONENTS CommonCore CommonDataModel CommonExecutionModel FiltersCore FiltersGeneral
-  FiltersGeometry IOImage IOLegacy IOXML RenderingFreeType)
+  FiltersGeometry IOImage IOLegacy IOParallelXML IOXML RenderingFreeType)
 
 set(TETLOD_VTK_PYTHON OFF)
 if(VTK_WRAP_PYTHON AND TARGET VTK::WrapPython)

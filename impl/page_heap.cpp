@@ -52,24 +52,42 @@ bool move_huge_page(char *from, char *to) {
 
 }  // namespace
 
+PageHeap::PageHeap() : process_(::getpid()) {}
+
 PageHeap::~PageHeap() { give_unused_back(); }
+
+/// Not locked: in this process nobody lets it go.
+std::unique_lock<std::mutex> PageHeap::hold() noexcept {
+  const pid_t here = ::getpid();
+  std::unique_lock lock(mutex_, std::defer_lock);
+  if (process_ == here)
+    lock.lock();
+  else if (lock.try_lock())
+    process_ = here;
+  return lock;
+}
 
 void *PageHeap::take(std::size_t bytes) noexcept {
   bytes = whole_pages(bytes);
-  const std::lock_guard lock(mutex_);
+  const std::unique_lock lock = hold();
+  if (!lock) return map(bytes);
   char *block = take_piece(bytes);
   if (!block && grow(bytes)) block = take_piece(bytes);
   return block;
 }
 
 void PageHeap::give(void *block, std::size_t bytes) noexcept {
-  const std::lock_guard lock(mutex_);
-  add_piece({static_cast<char *>(block), whole_pages(bytes)});
+  const Piece piece{static_cast<char *>(block), whole_pages(bytes)};
+  const std::unique_lock lock = hold();
+  if (lock)
+    add_piece(piece);
+  else
+    unmap(piece.begin, piece.bytes);
 }
 
 void PageHeap::give_unused_back() noexcept {
-  const std::lock_guard lock(mutex_);
-  drop_pieces();
+  const std::unique_lock lock = hold();
+  if (lock) drop_pieces();
 }
 
 void PageHeap::drop_pieces() noexcept {

@@ -1,16 +1,20 @@
 // Memory for large arrays, in the pages that the system has: huge ones, where it has them, and used again by the next
 // array, since to be given a page takes longer than to fill it.
 #pragma once
+#include <sys/types.h>
+
+#include <atomic>
 #include <cstddef>
 #include <mutex>
 #include <vector>
 
 namespace tetlod {
 
-/// Blocks of whole pages. Thread-safe.
+/// Blocks of whole pages. Thread-safe. In a process that was forked while another thread was in here, of which nothing
+/// here is known then, blocks come from the system and go back to it.
 class PageHeap {
  public:
-  PageHeap() = default;
+  PageHeap();
   ~PageHeap();  ///< all blocks have been given back
   PageHeap(const PageHeap &) = delete;
   PageHeap &operator=(const PageHeap &) = delete;
@@ -34,6 +38,7 @@ class PageHeap {
     char *end() const { return begin + bytes; }
   };
 
+  std::unique_lock<std::mutex> hold() noexcept;
   char *take_piece(std::size_t bytes) noexcept;
   void add_piece(Piece piece) noexcept;
   std::size_t insert_piece(std::size_t place, Piece piece) noexcept;
@@ -43,6 +48,7 @@ class PageHeap {
   void drop_pieces() noexcept;
 
   std::mutex mutex_;
+  std::atomic<pid_t> process_;  ///< in which `mutex_` is let go again by whoever has it
   std::vector<Piece> pieces_;  ///< by their addresses, none right behind another
 };
 

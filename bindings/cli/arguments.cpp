@@ -126,7 +126,7 @@ std::pair<std::string, double> weighted_name(const std::string &text) {
 
 void add_options(CLI::App &app, Arguments &arguments) {
   app.add_option("INPUT", arguments.input, "the mesh: .vtu, .vtk or .pvtu")->required();
-  app.add_option("OUTPUT", arguments.output, "the simplified mesh: .vtu or .vtk")->required();
+  app.add_option("OUTPUT", arguments.output, "the simplified mesh: .vtu, .vtk or .pvtu")->required();
   app.add_option("--field", arguments.field,
                  "point data that steers, vectors by their magnitude [the active scalars, else the first]")
       ->type_name("NAME");
@@ -162,11 +162,11 @@ std::string joined(int argc, char **argv) {
 }
 
 void check_endings(const Arguments &arguments) {
-  const std::string in = file_ending(arguments.input), out = file_ending(arguments.output);
-  if (in != ".vtu" && in != ".vtk" && in != ".pvtu") {
-    throw Failure(arguments.input + ": not a .vtu, .vtk or .pvtu file", kWrongUsage);
+  for (const std::string &path : {arguments.input, arguments.output}) {
+    const std::string ending = file_ending(path);
+    if (ending != ".vtu" && ending != ".vtk" && ending != ".pvtu")
+      throw Failure(path + ": not a .vtu, .vtk or .pvtu file", kWrongUsage);
   }
-  if (out != ".vtu" && out != ".vtk") throw Failure(arguments.output + ": not a .vtu or .vtk file", kWrongUsage);
 }
 
 // Pictures are known by their ending, so that further ones are among them.

@@ -58,7 +58,7 @@ void run(const Arguments &arguments) {
   vtkNew<VtkMessages> messages;
   messages->install();
   const auto filter = make_filter(arguments, *messages);
-  OutputFile result(arguments.output);
+  GridFile result(arguments.output);
   std::optional<OutputFile> report;
   if (!arguments.report.empty()) report.emplace(arguments.report);
   PicturesFolder pictures;
@@ -77,7 +77,7 @@ void run(const Arguments &arguments) {
   add_notes(*filter, arguments, notes);
   seconds.measuring = filter->GetSecondsOfMeasuring();
   watch.lap();
-  write_grid(result, simplified, *messages, notes);
+  result.write(simplified, *messages, notes);
   seconds.writing = watch.lap();
   stop_if_interrupted();
   const std::string field = simplified->GetPointData()->GetScalars()->GetName();

@@ -66,6 +66,18 @@ void OutputFile::write(const std::string &bytes) const {
 
 void OutputFile::fail(const std::string &reason) const { throw Failure(path_ + ": cannot be written: " + reason); }
 
+PassingFolder::PassingFolder(const std::string &path) : path_(path) {
+  std::error_code error;
+  if (!std::filesystem::create_directory(path, error)) throw Failure(path + ": cannot be made: " + error.message());
+}
+
+PassingFolder::~PassingFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+std::string PassingFolder::operator/(const std::string &name) const { return (Path(path_) / name).string(); }
+
 void require_file_or_nothing(const std::string &path) {
   std::error_code ignored;  // opening the file tells
   const auto status = std::filesystem::status(path, ignored);

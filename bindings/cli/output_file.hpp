@@ -29,6 +29,21 @@ class OutputFile {
   std::string path_, target_, temporary_;
 };
 
+// A folder that goes with this, and all that is in it.
+class PassingFolder {
+ public:
+  // Throws Failure.
+  explicit PassingFolder(const std::string &path);
+  ~PassingFolder();
+  PassingFolder(const PassingFolder &) = delete;
+  PassingFolder &operator=(const PassingFolder &) = delete;
+
+  std::string operator/(const std::string &name) const;
+
+ private:
+  std::string path_;
+};
+
 // Throws Failure for a folder, a pipe, a device: opening one may block, and renaming onto it would replace it.
 void require_file_or_nothing(const std::string &path);
 

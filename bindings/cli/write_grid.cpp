@@ -8,11 +8,13 @@
 #include <vtkSmartPointer.h>
 #include <vtkUnstructuredGridWriter.h>
 #include <vtkXMLDataElement.h>
+#include <vtkXMLPUnstructuredGridWriter.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 #include <vtkXMLUtilities.h>
 
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 
 #include "failure.hpp"
 
@@ -26,8 +28,8 @@ std::string reason_of(int system_error, unsigned long code) {
 
 // The writers call some failures a success, but leave their code.
 template <class Writer>
-void write_with(Writer &writer, const OutputFile &file, vtkUnstructuredGrid *grid) {
-  writer.SetFileName(file.temporary().c_str());
+void write_with(Writer &writer, const OutputFile &file, const std::string &at, vtkUnstructuredGrid *grid) {
+  writer.SetFileName(at.c_str());
   writer.SetInputData(grid);
   errno = 0;
   const bool written = writer.Write() == 1;
@@ -36,11 +38,33 @@ void write_with(Writer &writer, const OutputFile &file, vtkUnstructuredGrid *gri
   if (!written || code != vtkErrorCode::NoError) file.fail(reason_of(system_error, code));
 }
 
-void write_xml(const OutputFile &file, vtkUnstructuredGrid *grid) {
-  vtkNew<vtkXMLUnstructuredGridWriter> writer;
+template <class Writer>
+void write_xml(const OutputFile &file, const std::string &at, vtkUnstructuredGrid *grid) {
+  vtkNew<Writer> writer;
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOff();
-  write_with(*writer, file, grid);
+  write_with(*writer, file, at, grid);
+}
+
+std::string name_of_piece(const std::string &path) {
+  std::filesystem::path piece = path;
+  piece.replace_filename(piece.stem().string() + "_0.vtu");
+  return piece.string();
+}
+
+void move(const OutputFile &file, const std::string &from) {
+  std::error_code error;
+  std::filesystem::rename(from, file.temporary(), error);
+  if (error) file.fail(error.message());
+}
+
+// In a folder of its own, where VTK gives both files the names that they shall have, one in the other.
+void write_parts(const OutputFile &summary, const OutputFile &piece, vtkUnstructuredGrid *grid) {
+  const PassingFolder folder(summary.temporary() + ".parts");
+  const std::string at = folder / std::filesystem::path(summary.path()).filename().string();
+  write_xml<vtkXMLPUnstructuredGridWriter>(summary, at, grid);
+  move(piece, name_of_piece(at));
+  move(summary, at);
 }
 
 // Version 4.2 is what every reader of the format knows.
@@ -48,7 +72,7 @@ void write_legacy(const OutputFile &file, vtkUnstructuredGrid *grid) {
   vtkNew<vtkUnstructuredGridWriter> writer;
   writer->SetFileTypeToBinary();
   writer->SetFileVersion(vtkUnstructuredGridWriter::VTK_LEGACY_READER_VERSION_4_2);
-  write_with(*writer, file, grid);
+  write_with(*writer, file, file.temporary(), grid);
 }
 
 // The writer puts names between quotes as they are.
@@ -95,13 +119,23 @@ void check_arrays(const std::string &path, vtkUnstructuredGrid &grid) {
   }
 }
 
-void write_grid(const OutputFile &file, vtkUnstructuredGrid *grid, VtkMessages &messages,
-                std::vector<std::string> &notes) {
-  if (file_ending(file.path()) == ".vtk")
-    write_legacy(file, grid);
+GridFile::GridFile(const std::string &path) : file_(path) {
+  if (file_ending(path) == ".pvtu") piece_.emplace(name_of_piece(path));
+}
+
+void GridFile::write(vtkUnstructuredGrid *grid, VtkMessages &messages, std::vector<std::string> &notes) const {
+  if (piece_)
+    write_parts(file_, *piece_, grid);
+  else if (file_ending(file_.path()) == ".vtk")
+    write_legacy(file_, grid);
   else
-    write_xml(file, grid);
-  messages.check(file.path(), notes);
+    write_xml<vtkXMLUnstructuredGridWriter>(file_, file_.temporary(), grid);
+  messages.check(file_.path(), notes);
+}
+
+void GridFile::keep() {
+  if (piece_) piece_->keep();
+  file_.keep();
 }
 
 }  // namespace cli

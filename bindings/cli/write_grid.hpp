@@ -3,6 +3,7 @@
 
 #include <vtkUnstructuredGrid.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,8 +15,20 @@ namespace cli {
 // Throws Failure where the format would lose an array or its name.
 void check_arrays(const std::string &path, vtkUnstructuredGrid &grid);
 
-// As .vtu or .vtk, by the path's ending. Throws Failure.
-void write_grid(const OutputFile &file, vtkUnstructuredGrid *grid, VtkMessages &messages,
-                std::vector<std::string> &notes);
+// The file of the result, by its ending: .vtu, .vtk, or .pvtu, a summary that names its one piece, NAME_0.vtu beside it.
+class GridFile {
+ public:
+  // Throws Failure when the folder cannot be written to, before any work is done for the file.
+  explicit GridFile(const std::string &path);
+
+  // Throws Failure.
+  void write(vtkUnstructuredGrid *grid, VtkMessages &messages, std::vector<std::string> &notes) const;
+  // Gives it its name. Throws Failure.
+  void keep();
+
+ private:
+  OutputFile file_;
+  std::optional<OutputFile> piece_;
+};
 
 }  // namespace cli

@@ -219,6 +219,29 @@ TEST_F(Files, PartitionedFilesMayHaveGlobalNumbers) {
   EXPECT_EQ(run(folder / "whole.pvtu", folder / "out.vtu", {"--field", "heat"})["tets_in"], 1);
 }
 
+// A summary and its one piece: nothing else is left, and both together are what a single file is.
+TEST_F(Files, ResultsMayBePartitionedFiles) {
+  namespace fs = std::filesystem;
+  const Json report = run_on({});
+  write_cube(folder / "in.vtk", {});
+  fs::remove(folder / "out.vtu");
+  run(folder / "in.vtk", folder / "small.pvtu");
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{"in.vtk", "report.json", "small.pvtu", "small_0.vtu"}));
+  const Json again = run(folder / "small.pvtu", folder / "out.vtu");
+  expect_linear_field_kept(again);
+  EXPECT_EQ(again["tets_in"], report["tets_out"]);
+  EXPECT_EQ(again["merged_points"], 0);
+}
+
+TEST_F(Files, WhereAPieceCannotBeNothingIsWritten) {
+  write_cube(folder / "in.vtk", {});
+  std::filesystem::create_directory(folder / "small_0.vtu");
+  const Outcome refused = run_tool({folder / "in.vtk", folder / "small.pvtu"});
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_EQ(refused.err, "tetlod: " + (folder / "small_0.vtu") + ": is not a file\n");
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{"in.vtk", "small_0.vtu"}));
+}
+
 // A link into another folder, with or without a file at its end, stays a link.
 TEST_F(Files, AResultIsWrittenWhereALinkLeads) {
   namespace fs = std::filesystem;

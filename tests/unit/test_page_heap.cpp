@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cstring>
 #include <fstream>
 #include <random>
@@ -150,6 +152,55 @@ TEST(PageHeap, GivesToTheSystem) {
     EXPECT_TRUE(blocks[i].keeps_mark());
     heap.give(blocks[i].data, huge_page);
   }
+}
+
+/// Takes and gives, and ends with 0; where that waits for ever, by a signal.
+[[noreturn]] void use_after_fork(PageHeap &heap, const Block &before) {
+  ::alarm(20);
+  const bool kept = before.keeps_mark();
+  const Block more = take(heap, 3 << 20, 2);
+  heap.give(before.data, before.bytes);
+  const bool keeps = more.data && more.keeps_mark();
+  heap.give(more.data, more.bytes);
+  heap.give_unused_back();
+  ::_exit(kept && keeps && !is_mapped(before.data) && !is_mapped(more.data) ? 0 : 1);
+}
+
+int end_of(pid_t child) {
+  int status = -1;
+  return ::waitpid(child, &status, 0) == child ? status : -1;
+}
+
+/// Whose other threads were here at that time: in some of so many forks they were.
+TEST(PageHeap, ServesAProcessThatWasForked) {
+  PageHeap heap;
+  const Block before = take(heap, 1 << 20, 1);
+  std::atomic<bool> enough{false};
+  std::thread other([&] {
+    while (!enough) {
+      const Block block = take(heap, 2 << 20, 3);
+      heap.give(block.data, block.bytes);
+      heap.give_unused_back();
+    }
+  });
+  for (int i = 0; i < 100; i++) {
+    const pid_t child = ::fork();
+    if (child == 0) use_after_fork(heap, before);
+    EXPECT_EQ(end_of(child), 0);
+  }
+  enough = true;
+  other.join();
+  heap.give(before.data, before.bytes);
+}
+
+/// Without others it is used as before: what was given is taken again.
+TEST(PageHeap, IsUsedOnInAProcessThatWasForked) {
+  PageHeap heap;
+  const Block before = take(heap, 1 << 20, 1);
+  heap.give(before.data, before.bytes);
+  const pid_t child = ::fork();
+  if (child == 0) ::_exit(take(heap, 1 << 20, 2).data == before.data ? 0 : 1);
+  EXPECT_EQ(end_of(child), 0);
 }
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
