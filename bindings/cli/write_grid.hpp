@@ -15,7 +15,7 @@ namespace cli {
 // Throws Failure where the format would lose an array or its name.
 void check_arrays(const std::string &path, vtkUnstructuredGrid &grid);
 
-// The file of the result, by its ending: .vtu, .vtk, or .pvtu, a summary that names its one piece, NAME_0.vtu beside it.
+// The file of the result, by its ending: .vtu, .vtk, or .pvtu, a summary of its one piece, NAME_0.vtu beside it.
 class GridFile {
  public:
   // Throws Failure when the folder cannot be written to, before any work is done for the file.
