@@ -49,7 +49,7 @@ class PageHeap {
 
   std::mutex mutex_;
   std::atomic<pid_t> process_;  ///< in which `mutex_` is let go again by whoever has it
-  std::vector<Piece> pieces_;  ///< by their addresses, none right behind another
+  std::vector<Piece> pieces_;   ///< by their addresses, none right behind another
 };
 
 }  // namespace tetlod

@@ -125,11 +125,10 @@ Losses sum_of(const Array<Losses> &losses, Memory &memory) {
 
 /// By experience, as tests/bench/ACCURACY.md tells. share: of the vertices, on the boundary.
 double weight_of(const Losses &losses, double share) {
-  constexpr double least = 5, most = 1e5, by_losses = 3, power_of_losses = 0.75, most_losses = 1e3, usual_share = 0.7,
-                   power_of_share = 5;
+  constexpr double least = 3, most = 1e5, by_losses = 4.5, most_losses = 5e3, usual_share = 0.7, power_of_share = 4;
   const double ratio = losses.field < most_losses * losses.planes ? losses.field / losses.planes : most_losses;
   const double of_inside = std::pow(usual_share / share, power_of_share);
-  return std::min(least + by_losses * std::pow(ratio, power_of_losses) * (1 + of_inside), most);
+  return std::min(least + by_losses * std::sqrt(ratio) * (1 + of_inside), most);
 }
 
 }  // namespace

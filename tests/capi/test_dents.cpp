@@ -142,7 +142,7 @@ TEST(Dents, WhatIsInThemStaysOutside) {
 /// Which TetGen would not: it knew a way with a tetrahedron for the large cube alone, 0.59 of the diagonal off.
 TEST(Dents, CollapsesGoAroundWhatIsInThem) {
   const Cube cube = dented(0.01, 0.002);
-  for (double ratio : {0.035, 0.03}) {
+  for (double ratio : {0.04, 0.035}) {
     const Context context = make_context();
     submit(context.get(), cube);
     ASSERT_EQ(tetlod_set_real(context.get(), TETLOD_OPT_TARGET_RATIO, ratio), TETLOD_OK);

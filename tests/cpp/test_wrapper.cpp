@@ -159,7 +159,7 @@ TEST(Wrapper, TheFirstExceptionComesOut) {
   const Cube cube;
   tetlod::Context lod = cube.submitted();
   int calls = 0;
-  lod.set_real(TETLOD_OPT_TARGET_RATIO, 0.001);  // which cannot be had, as is told
+  lod.set_real(TETLOD_OPT_TARGET_RATIO, 1e-6);  // which cannot be had, as is told
   lod.set_log([&](std::int32_t, const char *) { throw std::runtime_error(std::to_string(calls++)); }, 0);
   try {
     lod.run();

@@ -371,7 +371,7 @@ TEST_F(DecimateSolid, AFlatBodyReachesItsSizeAsRulesGiveWay) {
     options.may_relax = true;
     EXPECT_TRUE(decimate(ratio, host, coarse)) << failure;
     expect_sound(coarse);
-    EXPECT_LT(coarse.deviation, 0.03 * box_of(surface.points).diagonal());
+    EXPECT_LT(coarse.deviation, 0.035 * box_of(surface.points).diagonal());
   }
 }
 
