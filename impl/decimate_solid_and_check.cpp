@@ -13,8 +13,6 @@ namespace tetlod {
 namespace {
 
 constexpr double most_missed = 0.01;
-/// Of the diagonal: for any use a boundary that is so far off stands out, or lacks a tip.
-constexpr double far_off = 0.02;
 /// Times the tets that are left: before, hardly any collapse takes the boundary through itself, as triangles are small.
 constexpr std::int64_t late = 8;
 

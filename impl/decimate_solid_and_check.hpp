@@ -6,6 +6,9 @@
 
 namespace tetlod {
 
+/// Of the diagonal: for any use a boundary that is so far off stands out, or lacks a tip.
+constexpr double far_off = 0.02;
+
 struct CoarseSolid {
   explicit CoarseSolid(Memory &memory) : mesh(memory), origin(&memory), surface(memory), topology(memory) {}
   TetMesh mesh;

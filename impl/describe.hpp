@@ -55,6 +55,7 @@ inline void describe_remeshing(const RemeshReport &remeshed, std::size_t samples
   report.samples = std::int64_t(samples) - remeshed.dropped_samples;
   report.steiner_points = remeshed.steiner_points;
   report.remesh_attempts = remeshed.attempts;
+  report.reused_collapses = 0;
   report.worker_peak_bytes = remeshed.worker_peak_bytes;
 }
 
@@ -62,11 +63,17 @@ inline void describe_remeshing(const RemeshReport &remeshed, std::size_t samples
 inline void describe_collapses(const CoarseSolid &coarse, const Original &original, Report &report) {
   describe_simplified_boundary(coarse.topology, report);
   report.max_deviation = coarse.deviation / original.box.diagonal();
+  report.reused_collapses = coarse.reused;
   const auto points = std::int64_t(coarse.mesh.points.size());
   report.samples = report.selected_samples = points - report.boundary_points_out;
   report.samples_outside = report.samples_too_near = report.steiner_points = report.reused_samples = 0;
   report.cleaned_edges = report.reused_triangles = report.boundary_retries = report.remesh_attempts = 0;
   report.worker_peak_bytes = 0;
+}
+
+inline void describe_size(const TetMesh &mesh, Report &report) {
+  report.points_out = std::int64_t(mesh.points.size());
+  report.tets_out = std::int64_t(mesh.tets.size());
 }
 
 /// What to say where a bound does not hold at these original vertices, whatever of the boundary is kept.

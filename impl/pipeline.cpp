@@ -44,7 +44,8 @@ class Pipeline : private Beginning {
       if (options_.max_error > 0 && report_.max_error > options_.max_error) fail_bound();
       tell_missed_size();
     }
-    finish();
+    scale_back(original_, job_, mesh_);
+    describe_size(mesh_, report_);
     carry();
   }
 
@@ -76,7 +77,7 @@ class Pipeline : private Beginning {
     for (const Budget budget = budget_;; budget_ = budget) {
       const bool collapsed = coarsen(worker);
       refine(collapsed);
-      if (collapsed) weigh_planes_otherwise();
+      if (collapsed || (report_.max_deviation > far_off && options_.clean_edges == 0)) weigh_planes_otherwise();
       if (beyond_.empty()) return !has_grown() || is_whole(budget_, options_, report_);
       if (!collapsed || kept_.restorations() == most_restorations) return false;
       kept_.restore(beyond_, original_.view.points.size());
@@ -90,28 +91,34 @@ class Pipeline : private Beginning {
   }
 
   /// By collapses, or from samples; where the one way leads to no sound mesh of the size, by the other, at last by
-  /// collapses that fold the boundary more, and the smallest mesh is taken. Returns whether it is by collapses.
+  /// collapses that fold the boundary more. Returns whether it is by collapses.
   bool coarsen(Worker &worker) {
     CoarseSolid coarse(job_.memory);
     mesh_.tets.clear();
-    if (collapses_edges(options_, report_)) {
-      bool reached = collapse_edges(false, coarse);
+    if (!collapses_edges(options_, report_)) {
+      if (!remesh_to_target(worker) && options_.clean_edges == 0) collapse_edges(true, coarse);
+    } else if (!collapse_edges(false, coarse)) {
       ladder_ = coarse.is_sound ? Ladder::first_rung : Ladder::whole;
-      if (!reached && may_remesh(coarse)) reached = remesh_to_target(worker);
-      if (!reached && coarse.is_sound && options_.max_error == 0) collapse_edges(true, coarse);
-    } else if (!remesh_to_target(worker) && options_.clean_edges == 0) {
-      collapse_edges(true, coarse);
+      const bool serves = may_remesh(coarse) && remesh_to_target(worker) && report_.max_deviation <= far_off;
+      const bool may_fold = coarse.is_sound && options_.max_error == 0 && !meets_size(budget_, coarse.mesh);
+      if (!serves && may_fold) collapse_edges(true, coarse);
     }
     if (!coarse.is_sound && mesh_.tets.empty()) {
       if (!options_.remesh)  // who remeshes has looked at that
         refuse_intersections(prepared_.surface(job_), prepared_.topology(job_), tree(), input_.index_base, job_);
       throw Error(Status::remesh, failure_);
     }
-    const bool collapsed = coarse.is_sound && (mesh_.tets.empty() || coarse.mesh.tets.size() < mesh_.tets.size());
+    const bool collapsed = coarse.is_sound && (mesh_.tets.empty() || is_better_than_remeshed(coarse));
     if (collapsed && !coarse.wrong.empty()) stuck_at_ = std::int64_t(coarse.mesh.tets.size());
-    report_.reused_collapses = collapsed ? coarse.reused : 0;
     if (collapsed) take_over(std::move(coarse));
     return collapsed;
+  }
+
+  /// Of two of the size the nearer one, where remeshing led far off, else the smaller one.
+  bool is_better_than_remeshed(const CoarseSolid &coarse) const {
+    if (report_.max_deviation > far_off && meets_size(budget_, coarse.mesh) && meets_size(budget_, mesh_))
+      return coarse.deviation < report_.max_deviation * original_.box.diagonal();
+    return coarse.mesh.tets.size() < mesh_.tets.size();
   }
 
   /// Where collapses stopped before the size once, and remeshing left more tets, or found no way: it takes seconds, and
@@ -217,8 +224,7 @@ class Pipeline : private Beginning {
 
   void tell_missed_size() const {
     if (!job_.log || options_.max_error > 0 || meets_size(budget_, mesh_)) return;
-    const auto asked = static_cast<long long>(budget_.tets);
-    job_.log(1, text("the result has %zu tets, not %lld", mesh_.tets.size(), asked).c_str());
+    job_.log(1, text("the result has %zu tets, not %lld", mesh_.tets.size(), (long long)budget_.tets).c_str());
   }
 
   [[noreturn]] void fail_bound() const {
@@ -357,12 +363,6 @@ class Pipeline : private Beginning {
     const StageTimer timer(Stage::values, job_, report_);
     tetlod::reconstruct_field(original_.view, boundary_, {surface_, samples_, remeshed_}, options_.tet_leaf, job_,
                               mesh_, origin_);
-  }
-
-  void finish() {
-    scale_back(original_, job_, mesh_);
-    report_.points_out = std::int64_t(mesh_.points.size());
-    report_.tets_out = std::int64_t(mesh_.tets.size());
   }
 
   void carry() {

@@ -154,6 +154,26 @@ TEST(Dents, CollapsesGoAroundWhatIsInThem) {
   }
 }
 
+/// The tetrahedron is not taken either where collapses come to the size, as they fold the boundary more, or as planes
+/// weigh otherwise.
+TEST(Dents, CollapsesAreTakenWhereRemeshingLeadsFarOff) {
+  const Cube cube = dented(0.01, 0.002);
+  for (double ratio : {0.03, 0.028, 0.027, 0.026}) {
+    const Context context = make_context();
+    submit(context.get(), cube);
+    ASSERT_EQ(tetlod_set_real(context.get(), TETLOD_OPT_TARGET_RATIO, ratio), TETLOD_OK);
+    ASSERT_EQ(tetlod_run(context.get()), TETLOD_OK) << message_of(context.get());
+    const tetlod_run_report report = report_of(context.get());
+    EXPECT_LE(double(report.tets_out), 1.03 * ratio * double(report.tets_in));
+    EXPECT_LE(report.max_deviation, 0.25) << ratio;
+    EXPECT_EQ(Solids(context.get()).intruders(), 0);
+    // Collapses clean no edges.
+    ASSERT_EQ(tetlod_set_real(context.get(), TETLOD_OPT_CLEAN_EDGES, 1e-15), TETLOD_OK);
+    ASSERT_EQ(tetlod_run(context.get()), TETLOD_OK) << message_of(context.get());
+    EXPECT_GT(report_of(context.get()).remesh_attempts, 0) << ratio;
+  }
+}
+
 /// Over which the boundary was decimated, so that TetGen refused it.
 TEST(Dents, TheDecimatedBoundaryGoesAroundWhatIsInThem) {
   const Cube cube = dented(0.01, 0.002);
