@@ -140,7 +140,7 @@ typedef struct tetlod_run_report {
   int64_t nonfinite_points; /* without a finite value, ignored with their tets (TETLOD_OPT_ON_NONFINITE) */
   int64_t dropped_tets;     /* with such a point, with a vertex twice (as submitted or after merging), duplicates, and
                                tets of the boundary without volume */
-  int64_t unused_points;    /* points that no tet uses */
+  int64_t unused_points;    /* points that no tet that is left uses */
   int64_t interior_points_in;
   int64_t boundary_points_in, boundary_edges_in, boundary_triangles_in;
   int64_t components; /* of the boundary surface: solids and cavities */
@@ -384,7 +384,7 @@ TETLOD_API tetlod_status tetlod_submit_field(tetlod_context *context, const char
 TETLOD_API tetlod_status tetlod_submit_steering(tetlod_context *context, const char *name, double weight,
                                                 const tetlod_array *values);
 enum {
-  TETLOD_FLAG_KEEP = 1, /* the vertex survives, with its place and value, unless it is ignored (no tet, no value) */
+  TETLOD_FLAG_KEEP = 1, /* the vertex survives, with its place and value, unless it is ignored: no tet left, no value */
   TETLOD_FLAG_LOCK = 2  /* the same, for an interface of partitions: triangles and edges of the boundary between locked
                            vertices stay as well, so that the other side still fits */
 };
@@ -399,7 +399,7 @@ TETLOD_API tetlod_status tetlod_clear(tetlod_context *context);
 
 /* Counts every class of defect of what is submitted (points and tets; scalars where they are), with the first culprit
  * of each. TETLOD_OK also for a bad mesh: out->status says what tetlod_run would, and tetlod_last_message why not OK.
- * TETLOD_ERR_STATE, TETLOD_ERR_STRUCT_SIZE, TETLOD_ERR_MEMORY_LIMIT, TETLOD_ERR_CANCELLED, TETLOD_ERR_TIME_LIMIT. */
+ * TETLOD_ERR_STATE, _STRUCT_SIZE, _MEMORY_LIMIT, _CANCELLED, _TIME_LIMIT, and _ARGUMENT for counts as tetlod_run. */
 TETLOD_API tetlod_status tetlod_check(tetlod_context *context, tetlod_mesh_report *out);
 /* Estimates tetlod_run_report.peak_bytes of a tetlod_run with what is submitted and the options as they are, within a
  * factor of 1.5 where the mesh is sound and its topology allows the size; two and a half times as much may be taken
@@ -475,7 +475,7 @@ TETLOD_API tetlod_status tetlod_fetch_field(const tetlod_context *context, const
  * lowest is named. The scalars of the result are not made from it where decimation placed a vertex.
  * It takes no time until it is asked for: unless the run carried a point field, the first call of this or of
  * tetlod_transfer for a result reads points and tets, and of what steers, which may be of a later step, which values
- * are ignored: as in its run, else TETLOD_ERR_STATE. _BUFFER_SIZE, _MEMORY_LIMIT, _CANCELLED, _MESH_NONFINITE. */
+ * are ignored: as in its run, else TETLOD_ERR_STATE. _ARGUMENT, _BUFFER_SIZE, _MEMORY_LIMIT, _CANCELLED, _MESH_*. */
 TETLOD_API tetlod_status tetlod_fetch_stencil(const tetlod_context *context, int32_t index_base, tetlod_array *ids,
                                               tetlod_array *weights);
 /* Moves any other point field (or the same at a later time) to the result by that stencil: simplified[i] = the mean of

@@ -15,6 +15,23 @@ constexpr double rounding = 1e-12;
 
 }  // namespace
 
+void find_homes(Span<const Vec3> points, const TetMesh &mesh, Job &job, Array<std::int32_t> &home,
+                Array<double> &distance) {
+  const TriangleTree to_mesh(mesh.points, mesh.boundary, job);
+  home.assign(points.size(), -1);
+  distance.assign(points.size(), 0);
+  job.parallel.for_blocks(points.size(), block, [&](std::size_t begin, std::size_t end) {
+    double usual2 = 0;
+    for (std::size_t i = begin; i < end; i++) {
+      const NearestPoint nearest = to_mesh.nearest(points[i], usual2);
+      usual2 = std::max(usual2, nearest.distance * nearest.distance);
+      distance[i] = nearest.distance;
+      home[i] = nearest.triangle;
+    }
+    job.poll(1);
+  });
+}
+
 BoundaryDistances::BoundaryDistances(const Surface &original, const TriangleTree &to_original, const TetMesh &mesh,
                                      Span<const std::int32_t> origin, Job &job)
     : original_(original),
@@ -22,12 +39,12 @@ BoundaryDistances::BoundaryDistances(const Surface &original, const TriangleTree
       job_(job),
       of_rounding_(rounding * box_of(original.points).diagonal()),
       to_original_(to_original),
-      of_sample_(original.points.size(), 0.0, &job.memory),
+      of_sample_(&job.memory),
       of_vertex_(mesh.points.size(), 0.0, &job.memory),
       of_middle_(mesh.boundary.size(), 0.0, &job.memory),
       first_(mesh.boundary.size(), -1, &job.memory),
       next_(original.points.size(), -1, &job.memory),
-      home_(original.points.size(), -1, &job.memory),
+      home_(&job.memory),
       fresh_homes_(&job.memory),
       fresh_middles_(&job.memory) {
   measure_samples();
@@ -36,17 +53,7 @@ BoundaryDistances::BoundaryDistances(const Surface &original, const TriangleTree
 }
 
 void BoundaryDistances::measure_samples() {
-  const TriangleTree to_mesh(mesh_.points, mesh_.boundary, job_);
-  job_.parallel.for_blocks(of_sample_.size(), block, [&](std::size_t begin, std::size_t end) {
-    double usual2 = 0;
-    for (std::size_t i = begin; i < end; i++) {
-      const NearestPoint nearest = to_mesh.nearest(original_.points[i], usual2);
-      usual2 = std::max(usual2, nearest.distance * nearest.distance);
-      of_sample_[i] = nearest.distance;
-      home_[i] = nearest.triangle;
-    }
-    job_.poll(1);
-  });
+  find_homes(original_.points, mesh_, job_, home_, of_sample_);
   for (std::size_t i = 0; i < home_.size(); i++)
     if (home_[i] >= 0) next_[i] = std::exchange(first_[std::size_t(home_[i])], std::int32_t(i));
 }
@@ -140,10 +147,10 @@ double BoundaryDistances::value_at(const Triangle &t, const Vec3 &weights, std::
 }
 
 bool BoundaryDistances::suit(Span<const std::int32_t> old, Span<const Triangle> fresh, const Goal &goal) {
-  return find_homes(old, fresh, goal) && find_middles(old, fresh, goal.limit);
+  return find_new_homes(old, fresh, goal) && find_middles(old, fresh, goal.limit);
 }
 
-bool BoundaryDistances::find_homes(Span<const std::int32_t> old, Span<const Triangle> fresh, const Goal &goal) {
+bool BoundaryDistances::find_new_homes(Span<const std::int32_t> old, Span<const Triangle> fresh, const Goal &goal) {
   fresh_homes_.clear();
   for (std::int32_t t : old)
     for (std::int32_t s = first_[std::size_t(t)]; s >= 0; s = next_[std::size_t(s)]) {

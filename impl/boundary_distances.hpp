@@ -35,6 +35,10 @@ struct Goal {
   std::int64_t served;
 };
 
+/// Of each point, the triangle of the mesh's boundary that it is nearest to, or -1, and its distance.
+void find_homes(Span<const Vec3> points, const TetMesh &mesh, Job &job, Array<std::int32_t> &home,
+                Array<double> &distance);
+
 class BoundaryDistances {
  public:
   /// to_original: its tree. origin: as in lower_deviation.
@@ -74,7 +78,7 @@ class BoundaryDistances {
   double value_at(const Triangle &t, const Vec3 &weights, std::size_t field) const;
   double distance_of_middle(const Triangle &t) const;
   Home home_among(Span<const Triangle> fresh, std::int32_t sample) const;
-  bool find_homes(Span<const std::int32_t> old, Span<const Triangle> fresh, const Goal &goal);
+  bool find_new_homes(Span<const std::int32_t> old, Span<const Triangle> fresh, const Goal &goal);
   bool find_middles(Span<const std::int32_t> old, Span<const Triangle> fresh, double limit);
   const Array<double> &distances(Apart::Where where) const;
 

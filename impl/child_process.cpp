@@ -65,7 +65,7 @@ Pair output_pipe() {
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) fail_for_want_of("a pipe", errno);
   Pair pair = lifted_pair(ends, "a pipe");
-  ::fcntl(pair.host.number(), F_SETFL, O_NONBLOCK);
+  if (::fcntl(pair.host.number(), F_SETFL, O_NONBLOCK) != 0) fail_for_want_of("a pipe", errno);
   return pair;
 }
 

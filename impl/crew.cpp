@@ -1,5 +1,6 @@
 #include "crew.hpp"
 
+#include <link.h>
 #include <signal.h>
 #include <unistd.h>
 
@@ -18,6 +19,19 @@ thread_local const Loop *current = nullptr;
 /// Pages that are never used take none of the memory.
 constexpr std::size_t stack_bytes = std::size_t(1) << 20;
 
+/// The system puts the thread-local variables of the host and of its libraries on each thread's stack, large ones, too.
+std::size_t bytes_of_thread_locals() {
+  std::size_t bytes = 0;
+  const auto add = [](dl_phdr_info *module, std::size_t, void *sum) {
+    for (int i = 0; i < module->dlpi_phnum; i++)
+      if (const auto &part = module->dlpi_phdr[i]; part.p_type == PT_TLS)
+        *static_cast<std::size_t *>(sum) += part.p_memsz + part.p_align;
+    return 0;
+  };
+  ::dl_iterate_phdr(add, &bytes);
+  return bytes;
+}
+
 /// What waits looks so many times before it sleeps: to be woken takes longer than most of what happens between loops.
 constexpr int looks = 2000;
 constexpr int looks_between_turns = 16;
@@ -32,7 +46,7 @@ void relax() {
 bool start(void *(*body)(void *), void *argument, pthread_t &thread) {
   pthread_attr_t attributes;
   if (::pthread_attr_init(&attributes) != 0) return false;
-  ::pthread_attr_setstacksize(&attributes, stack_bytes);
+  ::pthread_attr_setstacksize(&attributes, stack_bytes + bytes_of_thread_locals());
   sigset_t others, before;
   ::sigfillset(&others);
   for (int fault : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTRAP, SIGABRT, SIGSYS}) ::sigdelset(&others, fault);

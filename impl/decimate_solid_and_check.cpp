@@ -4,6 +4,7 @@
 
 #include "deviation.hpp"
 #include "lower_deviation.hpp"
+#include "move_outward.hpp"
 #include "nested_solids.hpp"
 #include "status.hpp"
 #include "tet_checks.hpp"
@@ -78,7 +79,8 @@ Array<std::uint8_t> vertices_that_stay(const SolidOptions &options, Memory &memo
   return stay;
 }
 
-/// Takes the boundary back to where it is farthest off, where the outcome is sound.
+/// Takes the boundary back to where it is farthest off, if a least distance is given from there on, else outward before
+/// that, where the outcome is sound.
 bool lower(const OriginalSolid &original, const SolidOptions &options, double least, std::int64_t most, Job &job,
            CoarseSolid &coarse) {
   CoarseSolid lowered(job.memory);
@@ -86,8 +88,10 @@ bool lower(const OriginalSolid &original, const SolidOptions &options, double le
   lowered.origin = coarse.origin;
   lowered.reused = coarse.reused;
   const Array<std::uint8_t> stay = vertices_that_stay(options, job.memory);
+  const TriangleTree &to_original = original.tree.get(job);
+  if (least == 0) move_outward(original.surface, to_original, stay, job, lowered.mesh, lowered.origin);
   lowered.deviation =
-      lower_deviation(original.surface, original.tree.get(job), stay, least, most, job, lowered.mesh, lowered.origin);
+      lower_deviation(original.surface, to_original, stay, least, most, job, lowered.mesh, lowered.origin);
   TreeOnDemand tree;
   check(original, options, job, lowered, tree);
   const bool is_sound = lowered.is_sound;

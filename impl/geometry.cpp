@@ -27,7 +27,7 @@ Vec3 nearest_in_triangle(const Vec3 &p, const Vec3 &a, const Vec3 &b, const Vec3
   }
   const Vec3 candidates[3] = {nearest_on_edge(p, a, b, 0, 1), nearest_on_edge(p, b, c, 1, 2),
                               nearest_on_edge(p, c, a, 2, 0)};
-  const auto distance2 = [&](const Vec3 &w) { return length2(w.x * a + w.y * b + w.z * c - p); };
+  const auto distance2 = [&](const Vec3 &w) { return length2(w.x * (a - p) + w.y * (b - p) + w.z * (c - p)); };
   int best = 0;
   for (int k = 1; k < 3; k++)
     if (distance2(candidates[k]) < distance2(candidates[best])) best = k;

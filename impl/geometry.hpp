@@ -48,7 +48,11 @@ struct TriangleInSpace {
   Vec3 middle() const { return (a + b + c) / 3.0; }
   Vec3 at(const Vec3 &weights) const { return weights.x * a + weights.y * b + weights.z * c; }
   Vec3 weights_nearest_to(const Vec3 &p) const { return nearest_in_triangle(p, a, b, c); }
-  double distance2_to(const Vec3 &p) const { return length2(at(weights_nearest_to(p)) - p); }
+  /// As seen from p: far from the origin the point itself is rounded by more than it is off.
+  double distance2_to(const Vec3 &p) const {
+    const Vec3 w = weights_nearest_to(p);
+    return length2(w.x * (a - p) + w.y * (b - p) + w.z * (c - p));
+  }
 };
 
 /// Linear between the values at the ends, at the point of the edge nearest to x; never beyond them by rounding.

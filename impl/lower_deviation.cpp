@@ -6,6 +6,7 @@
 
 #include "boundary_distances.hpp"
 #include "nearest_in_star.hpp"
+#include "remesh_checks.hpp"
 #include "replace_simplices.hpp"
 #include "tet_frame.hpp"
 
@@ -47,8 +48,8 @@ class DeviationLowering {
         distances_(original, to_original, mesh, origin, job),
         touched_(&job.memory),
         change_(job.memory),
-        volume6_(volume6_of(original.points, original.triangles)),
-        excess6_(volume6_of(mesh.points, mesh.boundary) - volume6_) {}
+        volume6_(6 * enclosed_volume(original.points, original.triangles).value),
+        excess6_(6 * enclosed_volume(mesh.points, mesh.boundary).value - volume6_) {}
 
   double run(double least, std::int64_t most) {
     least_ = least;
@@ -59,12 +60,6 @@ class DeviationLowering {
   }
 
  private:
-  static double volume6_of(Span<const Vec3> points, Span<const Triangle> triangles) {
-    double sum = 0;
-    for (const Triangle &t : triangles)
-      sum += det(points[0], points[std::size_t(t[0])], points[std::size_t(t[1])], points[std::size_t(t[2])]);
-    return sum;
-  }
   const Vec3 &point(std::int32_t v) const { return mesh_.points[std::size_t(v)]; }
   double volume6_of(const Tet &t) const { return det(point(t[0]), point(t[1]), point(t[2]), point(t[3])); }
   double shape2_of(const Tet &t) const { return shape2(point(t[0]), point(t[1]), point(t[2]), point(t[3])); }

@@ -1,5 +1,6 @@
 #include "memory.hpp"
 
+#include <algorithm>
 #include <new>
 
 #include "status.hpp"
@@ -29,12 +30,14 @@ Memory::Memory(AllocatorHooks hooks, std::size_t limit) : hooks_(hooks), limit_(
 Memory::~Memory() = default;
 
 void Memory::charge(std::size_t bytes) {
-  const std::size_t now = in_use_.fetch_add(bytes, std::memory_order_relaxed) + bytes;
-  if (limit_ && now > limit_) {
-    discharge(bytes);
-    short_ = true;
-    fail(Status::memory_limit, "needs %zu bytes more with %zu in use, the limit is %zu", bytes, now - bytes, limit_);
-  }
+  std::size_t before = in_use_.load(std::memory_order_relaxed);
+  do {  // what is refused is never counted: another thread's may fit
+    if (limit_ && bytes > limit_ - std::min(limit_, before)) {
+      short_ = true;
+      fail(Status::memory_limit, "needs %zu bytes more with %zu in use, the limit is %zu", bytes, before, limit_);
+    }
+  } while (!in_use_.compare_exchange_weak(before, before + bytes, std::memory_order_relaxed));
+  const std::size_t now = before + bytes;
   std::size_t peak = peak_.load(std::memory_order_relaxed);
   while (now > peak && !peak_.compare_exchange_weak(peak, now, std::memory_order_relaxed)) {
   }

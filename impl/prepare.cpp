@@ -26,7 +26,7 @@ bool interleaved_doubles(const std::array<StridedArray, 3> &xyz) {
 Span<const Vec3> read_points(const Input &input, Job &job, Array<Vec3> &copy) {
   const auto count = std::size_t(input.xyz[0].tuples);
   if (interleaved_doubles(input.xyz)) return {reinterpret_cast<const Vec3 *>(input.xyz[0].data), count};
-  copy.resize(count);
+  grow(copy, count, job);
   job.parallel.for_blocks(count, block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; i++)
       for (int k = 0; k < 3; k++) copy[i][k] = input.xyz[std::size_t(k)].real(std::int64_t(i), 0);
@@ -40,7 +40,7 @@ Span<const double> read_scalars(const Input &input, Job &job, Array<double> &cop
   if (input.steering.empty() && input.scalars.packed_as(ElementType::float64))
     return {reinterpret_cast<const double *>(input.scalars.data), count};
   const std::size_t fields = input.steering_fields();
-  copy.resize(count * fields);
+  grow(copy, count * fields, job);
   job.parallel.for_blocks(count, block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = 0; k < fields; k++) {
       const StridedArray &field = k == 0 ? input.scalars : input.steering[k - 1].values;
@@ -136,7 +136,7 @@ Span<const Tet> read_tets(const Input &input, Job &job, Array<Tet> &copy) {
   const auto count = std::size_t(input.tets.tuples);
   if (input.index_base == 0 && input.tets.packed_as(ElementType::int32))
     return {reinterpret_cast<const Tet *>(input.tets.data), count};
-  copy.resize(count);
+  grow(copy, count, job);
   job.parallel.for_blocks(count, block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; t++)
       for (int k = 0; k < 4; k++)

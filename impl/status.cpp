@@ -11,7 +11,7 @@ namespace {
 std::string format_text(const char *format, std::va_list arguments) {
   char buffer[1024];  // as much as a context keeps
   const int length = std::vsnprintf(buffer, sizeof buffer, format, arguments);
-  return length > 0 ? std::string(buffer) : std::string(format);
+  return length >= 0 ? std::string(buffer) : std::string(format);
 }
 
 }  // namespace

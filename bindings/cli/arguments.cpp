@@ -169,6 +169,12 @@ void check_endings(const Arguments &arguments) {
   }
 }
 
+void check_piece(const Arguments &arguments) {
+  const std::string piece = piece_of(arguments.output);
+  if (!piece.empty() && same_file(piece, arguments.input))
+    throw Failure(arguments.input + ": the piece of OUTPUT would take its place", kWrongUsage);
+}
+
 // Pictures are known by their ending, so that further ones are among them.
 bool is_picture(const std::string &path, const std::string &folder) {
   const std::filesystem::path there = std::filesystem::path(folder) / std::filesystem::path(path).filename();
@@ -181,6 +187,8 @@ std::string overwritten_by_report(const Arguments &arguments) {
   const std::string &report = arguments.report;
   if (same_file(report, arguments.input)) return "INPUT";
   if (same_file(report, arguments.output)) return "OUTPUT";
+  if (const std::string piece = piece_of(arguments.output); !piece.empty() && same_file(report, piece))
+    return "the piece of OUTPUT";
   return is_picture(report, arguments.pictures) ? "one of the pictures" : "";
 }
 
@@ -195,7 +203,7 @@ void check_pictures(const Arguments &arguments) {
   using Path = std::filesystem::path;
   for (Path folder = arguments.pictures; !folder.empty() && folder != folder.parent_path();
        folder = folder.parent_path())
-    for (const std::string &file : {arguments.input, arguments.output, arguments.report})
+    for (const std::string &file : {arguments.input, arguments.output, piece_of(arguments.output), arguments.report})
       if (!file.empty() && same_file(folder.string(), file))
         throw Failure(arguments.pictures + ": --pictures would take the place of " + file, kWrongUsage);
 }
@@ -217,6 +225,7 @@ std::optional<Arguments> parse_arguments(int argc, char **argv) {
     throw Failure(std::string(error.what()) + " (see tetlod --help)", kWrongUsage);
   }
   check_endings(arguments);
+  check_piece(arguments);
   check_report(arguments);
   check_pictures(arguments);
   return arguments;

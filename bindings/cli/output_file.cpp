@@ -102,4 +102,11 @@ std::string file_ending(const std::string &path) {
   return ending;
 }
 
+std::string piece_of(const std::string &path) {
+  if (file_ending(path) != ".pvtu") return "";
+  std::filesystem::path piece = path;
+  piece.replace_filename(piece.stem().string() + "_0.vtu");
+  return piece.string();
+}
+
 }  // namespace cli

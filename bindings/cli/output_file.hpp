@@ -56,4 +56,7 @@ bool same_file(const std::string &a, const std::string &b);
 // ".vtu" of "a/b.VTU"; empty when there is none.
 std::string file_ending(const std::string &path);
 
+// Of a summary .pvtu the file beside it that its one piece is written to; empty: it is none.
+std::string piece_of(const std::string &path);
+
 }  // namespace cli

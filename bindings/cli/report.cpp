@@ -28,6 +28,7 @@ void put_counts(Json &json, const tetlod_run_report &run) {
   json["steiner_points"] = run.steiner_points;
   json["inserted_points"] = run.inserted_points;
   json["remesh_attempts"] = run.remesh_attempts;
+  json["boundary_retries"] = run.boundary_retries;
 }
 
 void put_boundary(Json &json, const tetlod_run_report &run) {

@@ -46,12 +46,6 @@ void write_xml(const OutputFile &file, const std::string &at, vtkUnstructuredGri
   write_with(*writer, file, at, grid);
 }
 
-std::string name_of_piece(const std::string &path) {
-  std::filesystem::path piece = path;
-  piece.replace_filename(piece.stem().string() + "_0.vtu");
-  return piece.string();
-}
-
 void move(const OutputFile &file, const std::string &from) {
   std::error_code error;
   std::filesystem::rename(from, file.temporary(), error);
@@ -63,7 +57,7 @@ void write_parts(const OutputFile &summary, const OutputFile &piece, vtkUnstruct
   const PassingFolder folder(summary.temporary() + ".parts");
   const std::string at = folder / std::filesystem::path(summary.path()).filename().string();
   write_xml<vtkXMLPUnstructuredGridWriter>(summary, at, grid);
-  move(piece, name_of_piece(at));
+  move(piece, piece_of(at));
   move(summary, at);
 }
 
@@ -120,7 +114,7 @@ void check_arrays(const std::string &path, vtkUnstructuredGrid &grid) {
 }
 
 GridFile::GridFile(const std::string &path) : file_(path) {
-  if (file_ending(path) == ".pvtu") piece_.emplace(name_of_piece(path));
+  if (const std::string piece = piece_of(path); !piece.empty()) piece_.emplace(piece);
 }
 
 void GridFile::write(vtkUnstructuredGrid *grid, VtkMessages &messages, std::vector<std::string> &notes) const {

@@ -117,11 +117,20 @@ inline const char *stage_name(std::int32_t stage) { return tetlod_stage_name(sta
 inline std::int32_t option_from_name(const std::string &name) { return tetlod_option_from_name(name.c_str()); }
 /// nullptr for a number that is no option.
 inline const char *option_name(std::int32_t option) { return tetlod_option_name(option); }
+namespace detail {
+/// Of the last call that failed, in a context, or, for nullptr, in this thread without one.
+inline std::string message_of(const tetlod_context *context) {
+  std::vector<char> text(tetlod_last_message(context, nullptr, 0) + 1);
+  tetlod_last_message(context, text.data(), text.size());
+  return text.data();
+}
+}  // namespace detail
+
 inline tetlod_bounds option_bounds(std::int32_t option) {
   tetlod_bounds bounds = {};
   bounds.struct_size = sizeof bounds;
   const tetlod_status status = tetlod_option_bounds(option, &bounds);
-  if (status != TETLOD_OK) throw Error(status, std::string("option_bounds: ") + tetlod_status_text(status));
+  if (status != TETLOD_OK) throw Error(status, "option_bounds: " + detail::message_of(nullptr));
   return bounds;
 }
 
@@ -151,7 +160,7 @@ class Context {
 
   /// For functions of the C ABI.
   tetlod_context *get() const noexcept { return handle_; }
-  std::string last_message() const { return message_of(handle_); }
+  std::string last_message() const { return detail::message_of(handle_); }
 
   /// An empty function: none.
   void set_log(LogFunction log, std::int32_t min_level = 1) {
@@ -285,16 +294,10 @@ class Context {
     }
   }
 
-  static std::string message_of(tetlod_context *handle) {
-    std::vector<char> text(tetlod_last_message(handle, nullptr, 0) + 1);
-    tetlod_last_message(handle, text.data(), text.size());
-    return text.data();
-  }
-
   /// What a callback threw goes first: the library's status is its consequence.
   static void require(tetlod_status status, tetlod_context *handle, Callbacks *callbacks) {
     if (callbacks && callbacks->thrown) std::rethrow_exception(std::exchange(callbacks->thrown, nullptr));
-    if (status != TETLOD_OK) throw Error(status, message_of(handle));
+    if (status != TETLOD_OK) throw Error(status, detail::message_of(handle));
   }
   void require(tetlod_status status) const { require(status, handle_, callbacks_.get()); }
 

@@ -14,15 +14,16 @@
 ! A new function of tetlod.h is bound in tetlod_c.f90 and becomes a procedure of one of the types that
 ! tetlod_context extends: tetlod_options, tetlod_input, or of tetlod_context itself in tetlod_results.f90.
 module tetlod
-  use, intrinsic :: iso_c_binding, only: c_char, c_int32_t, c_loc, c_sizeof
+  use, intrinsic :: iso_c_binding, only: c_char, c_int32_t, c_loc, c_null_ptr, c_sizeof
   use tetlod_c, only: c_build_info, c_option_bounds, c_option_from_name, c_option_name, c_stage_name, c_status_text, &
     c_version
-  use tetlod_lifetime, only: conclude, tetlod_log_procedure, tetlod_progress_procedure
+  use tetlod_lifetime, only: conclude, message_of, tetlod_log_procedure, tetlod_progress_procedure
   use tetlod_results, only: tetlod_context
   use tetlod_text, only: c_text, fortran_text
   use tetlod_types
   implicit none
-  private :: c_char, c_int32_t, c_loc, c_sizeof, conclude, c_text, fortran_text, tetlod_array, tetlod_config
+  private :: c_char, c_int32_t, c_loc, c_null_ptr, c_sizeof, conclude, message_of, c_text, fortran_text, tetlod_array
+  private :: tetlod_config
   private :: c_version, c_build_info, c_status_text, c_stage_name, c_option_bounds, c_option_from_name, c_option_name
 
 contains
@@ -61,7 +62,7 @@ contains
     integer(c_int32_t) :: status
     bounds%struct_size = int(c_sizeof(bounds), c_int32_t)
     status = c_option_bounds(option, bounds)
-    call conclude(status, "option_bounds: "//tetlod_status_text(status), stat, errmsg)
+    call conclude(status, "option_bounds: "//message_of(c_null_ptr), stat, errmsg)
   end subroutine
 
   ! 0 for a name that is no option.

@@ -51,8 +51,8 @@ module tetlod_lifetime
     procedure :: settle
   end type
 
-  ! For the modules of this folder: the end of a call without a context's message.
-  public :: conclude
+  ! For the modules of this folder: the end of a call without a context's message, and that of the thread's last one.
+  public :: conclude, message_of
 
 contains
 
@@ -67,6 +67,7 @@ contains
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
     character(kind=c_char), allocatable, target :: path(:)
+    character(len=20) :: digits
     type(tetlod_config) :: config
     integer(c_int32_t) :: status
     integer :: refused
@@ -76,7 +77,8 @@ contains
     end if
     if (present(memory_limit)) then
       if (memory_limit < 0) then
-        call conclude(TETLOD_ERR_ARGUMENT, "create: the memory limit is negative", stat, errmsg)
+        write (digits, "(i0)") memory_limit
+        call conclude(TETLOD_ERR_ARGUMENT, "create: the memory limit is "//trim(digits)//" bytes", stat, errmsg)
         return
       end if
     end if
@@ -211,14 +213,21 @@ contains
   function last_message(this) result(message)
     class(tetlod_owner), intent(in) :: this
     character(len=:), allocatable :: message
+    message = message_of(this%handle)
+  end function
+
+  ! The same of a context of C, or, for null, of the thread's calls without one.
+  function message_of(handle) result(message)
+    type(c_ptr), intent(in) :: handle
+    character(len=:), allocatable :: message
     character(kind=c_char), allocatable, target :: buffer(:)
     integer(c_size_t) :: length
     integer :: refused
-    length = c_last_message(this%handle, c_null_ptr, 0_c_size_t)
+    length = c_last_message(handle, c_null_ptr, 0_c_size_t)
     message = ""
     allocate (buffer(length + 1), stat=refused)
     if (refused /= 0) return
-    length = c_last_message(this%handle, c_loc(buffer), length + 1)
+    length = c_last_message(handle, c_loc(buffer), length + 1)
     message = fortran_text(c_loc(buffer))
   end function
 

@@ -39,6 +39,8 @@ vtkDataArray *steering_array(vtkUnstructuredGrid &grid, vtkInformation *wanted) 
 vtkUnsignedCharArray *flags_array(vtkUnstructuredGrid &grid, vtkInformation *wanted) {
   const std::string name = wanted_name(wanted);
   if (name.empty()) return nullptr;
+  if (wanted->Get(vtkDataObject::FIELD_ASSOCIATION()) == vtkDataObject::FIELD_ASSOCIATION_CELLS)
+    throw std::runtime_error("point flags '" + name + "' are asked for as cell data");
   auto *flags = vtkUnsignedCharArray::SafeDownCast(grid.GetPointData()->GetAbstractArray(name.c_str()));
   if (flags == nullptr || flags->GetNumberOfComponents() != 1)
     throw std::runtime_error("point flags '" + name + "' are not a point array of one unsigned char");

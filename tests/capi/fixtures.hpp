@@ -187,6 +187,7 @@ class CountingAllocator {
     return failures;
   }
   std::size_t in_use() const { return in_use_; }
+  std::size_t most() const { return most_; }
   long mismatches() const { return mismatches_; }
 
  private:
@@ -207,7 +208,9 @@ class CountingAllocator {
     if (!block) return nullptr;
     const Head asked{bytes, alignment};
     std::memcpy(block, &asked, sizeof asked);
-    in_use_ += bytes;
+    const std::size_t now = in_use_ += bytes;
+    for (std::size_t most = most_; now > most && !most_.compare_exchange_weak(most, now);) {
+    }
     return block + head;
   }
 
@@ -222,7 +225,7 @@ class CountingAllocator {
 
   std::atomic<long> left_{-1};
   std::atomic<bool> failed_{false};
-  std::atomic<std::size_t> in_use_{0};
+  std::atomic<std::size_t> in_use_{0}, most_{0};
   std::atomic<long> mismatches_{0};
 };
 

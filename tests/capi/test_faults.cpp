@@ -132,7 +132,7 @@ TEST(Faults, MemoryLimits) {
     const Context context = make_context(config);
     submit(context.get(), cube);
     status = tetlod_run(context.get());
-    ASSERT_LE(allocator.in_use(), config.memory_limit);
+    ASSERT_LE(allocator.most(), config.memory_limit);
     if (status == TETLOD_OK) {
       EXPECT_EQ(bytes_of(context.get()), wanted);
       tetlod_run_report report{};
@@ -145,6 +145,37 @@ TEST(Faults, MemoryLimits) {
     }
   }
   EXPECT_EQ(status, TETLOD_OK) << "not even with " << limit;
+}
+
+/// With threads.
+TEST(Faults, MemoryLimitsWhereEdgesCollapse) {
+  const Cube cube(8);
+  for (std::int32_t preset : {TETLOD_PRESET_FAST, TETLOD_PRESET_ACCURATE}) {
+    const auto set = [&](tetlod_context *context) {
+      tetlod_set_preset(context, preset);
+      tetlod_set_real(context, TETLOD_OPT_TARGET_RATIO, 0.3);
+      submit(context, cube);
+    };
+    const Context unlimited = make_context();
+    set(unlimited.get());
+    ASSERT_EQ(tetlod_run(unlimited.get()), TETLOD_OK) << message_of(unlimited.get());
+    for (double part : {0.5, 0.8, 1.2}) {
+      CountingAllocator allocator;
+      tetlod_config config = allocator.config();
+      config.memory_limit = std::uint64_t(part * double(report_of(unlimited.get()).peak_bytes));
+      const Context context = make_context(config);
+      set(context.get());
+      const tetlod_status status = tetlod_run(context.get());
+      EXPECT_TRUE(status == TETLOD_OK || (part < 1 && status == TETLOD_ERR_MEMORY_LIMIT))
+          << preset << ' ' << part << ": " << message_of(context.get());
+      if (status == TETLOD_OK) {
+        tetlod_error_report error{};
+        error.struct_size = sizeof error;
+        EXPECT_EQ(tetlod_measure_error(context.get(), 1, &error), TETLOD_OK) << preset << ' ' << part;
+      }
+      EXPECT_LE(allocator.most(), config.memory_limit) << preset << ' ' << part;
+    }
+  }
 }
 
 /// Cancels at the n-th call.

@@ -233,6 +233,22 @@ TEST_F(Files, ResultsMayBePartitionedFiles) {
   EXPECT_EQ(again["merged_points"], 0);
 }
 
+TEST_F(Files, NothingElseTakesThePlaceOfThePiece) {
+  const std::string piece = folder / "small_0.vtu";
+  write_cube(folder / "in.vtk", {});
+  run(folder / "in.vtk", folder / "small.pvtu");
+  const std::string before = contents_of(piece);
+  for (const std::vector<std::string> &command :
+       {std::vector<std::string>{folder / "in.vtk", folder / "small.pvtu", "--report", piece},
+        {folder / "in.vtk", folder / "small.pvtu", "--pictures", piece},
+        {piece, folder / "small.pvtu"}}) {
+    const Outcome refused = run_tool(command);
+    EXPECT_EQ(refused.status, 2) << refused.err;
+    EXPECT_NE(refused.err.find("small_0.vtu"), std::string::npos) << refused.err;
+    EXPECT_EQ(contents_of(piece), before);
+  }
+}
+
 TEST_F(Files, WhereAPieceCannotBeNothingIsWritten) {
   write_cube(folder / "in.vtk", {});
   std::filesystem::create_directory(folder / "small_0.vtu");

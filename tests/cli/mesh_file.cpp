@@ -188,10 +188,8 @@ void write_points(std::ostream &file, const Cube &cube, const Lattice &lattice) 
 void write_scalars(std::ostream &file, const Cube &cube, const Lattice &lattice) {
   file << "SCALARS heat " << cube.real << " 1\nLOOKUP_TABLE default\n";
   lattice.for_each_node([&](const Node &n) {
-    const bool nan = cube.with_nan && n == Node{0, 0, 0};
     const auto [x, y, z] = lattice.point(n);
-    if (nan) file << "nan\n";
-    if (!nan) file << x + 2 * y + 3 * z << '\n';
+    file << x + 2 * y + 3 * z << '\n';
   });
   file << "SCALARS " << cube.other << ' ' << cube.real << " 1\nLOOKUP_TABLE default\n";
   lattice.for_each_node([&](const Node &n) { file << lattice.point(n)[0] << '\n'; });

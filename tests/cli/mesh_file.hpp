@@ -15,7 +15,6 @@ struct Cube {
   std::string integer;          // int or vtktypeint64: format 5.1; empty: format 4.2
   double shift = 0;             // of all points along x
   bool with_triangle = false;   // beside the volume cells
-  bool with_nan = false;        // the first value
   bool with_bad_index = false;  // in the last cell
   bool vectors_alone = false;   // no scalars
 };

@@ -63,7 +63,7 @@ TEST_F(Pictures, TheSameRunMakesTheSamePictures) {
   EXPECT_EQ(file("slices.png") + file("surface.png"), first);
 }
 
-TEST_F(Pictures, OtherCellsAndValuesThatAreNone) {
+TEST_F(Pictures, OtherCells) {
   Cube hexahedra;
   hexahedra.kind = Kind::hexahedron;
   const Outcome outcome = run(hexahedra);

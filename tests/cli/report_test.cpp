@@ -31,7 +31,7 @@ TEST_F(Report, HasTheNamesThatAreDocumented) {
   ASSERT_EQ(run().status, 0);
   ASSERT_TRUE(json.is_object());
   for (const char *name : {"tets_in", "tets_out", "points_in", "points_out", "samples", "steiner_points",
-                           "boundary_edges_in", "boundary_edges_out", "peak_bytes"}) {
+                           "boundary_edges_in", "boundary_edges_out", "boundary_retries", "peak_bytes"}) {
     EXPECT_TRUE(json[name].is_number_integer()) << name;
   }
   for (const char *name : {"rms", "max", "outside"}) EXPECT_TRUE(json["error"][name].is_number()) << name;

@@ -292,15 +292,34 @@ TEST_F(Usage, NamesOfComponentsThatXmlCannotHave) {
 }
 
 TEST_F(Usage, BadMeshes) {
-  Cube nan, index, polyhedra, hexahedra_index;
-  nan.with_nan = index.with_bad_index = hexahedra_index.with_bad_index = true;
+  Cube index, polyhedra, hexahedra_index;
+  index.with_bad_index = hexahedra_index.with_bad_index = true;
   polyhedra.kind = Kind::polyhedron;
   hexahedra_index.kind = Kind::hexahedron;
-  expect_failure(run_on(nan), 1, "nan");
   expect_failure(run_on(index), 1, "343");
   expect_failure(run_on(hexahedra_index), 1, "343");
   expect_failure(run_on(polyhedra), 1, "olyhedron");
   expect_only_input();
+}
+
+// VTK reads none from text: 0, 1, 2, 3 and nan are in base 64, after their size.
+TEST_F(Usage, AValueThatIsNone) {
+  std::ofstream(folder / "in.vtu") << R"(<VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian">
+<UnstructuredGrid><Piece NumberOfPoints="5" NumberOfCells="2">
+<PointData Scalars="heat"><DataArray type="Float64" Name="heat" format="binary">)"
+                                   << "KAAAAAAAAAAAAAAAAAAAAAAA8D8AAAAAAAAAQAAAAAAAAAhAAAAAAAAA+H8="
+                                   << R"(</DataArray></PointData><Points>
+<DataArray type="Float64" NumberOfComponents="3" format="ascii">0 0 0 1 0 0 0 1 0 0 0 1 0 0 -1</DataArray></Points>
+<Cells><DataArray type="Int64" Name="connectivity" format="ascii">0 1 2 3 0 2 1 4</DataArray>
+<DataArray type="Int64" Name="offsets" format="ascii">4 8</DataArray>
+<DataArray type="UInt8" Name="types" format="ascii">10 10</DataArray></Cells>
+</Piece></UnstructuredGrid></VTKFile>)";
+  expect_failure(run_tool({folder / "in.vtu", folder / "out.vtu"}), 1, "the value of vertex 4 is nan");
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"in.vtu"});
+  const Outcome repaired = run_tool({folder / "in.vtu", folder / "out.vtu", "--quiet", "--on-nonfinite", "repair",
+                                     "--pictures", folder / "pictures"});
+  EXPECT_EQ(repaired.status, 0) << repaired.err;
+  EXPECT_TRUE(std::filesystem::exists(folder / "pictures/report.html"));
 }
 
 TEST_F(Usage, AnInterruptionLeavesNothingBehind) {

@@ -44,7 +44,7 @@ endfunction()
 # Uninstalling leaves nothing but what is of others, whatever the folders' names.
 function(uninstall_again prefix)
   run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
-  set(own "${prefix}/lib/cmake/tetlod/own.txt")
+  set(own "${prefix}/${LIBDIR}/cmake/tetlod/own.txt")
   file(WRITE "${own}" "")
   run(${CMAKE_COMMAND} -DMANIFEST=${BUILD}/install_manifest.txt -P ${SOURCE}/cmake/uninstall.cmake)
   execute_process(COMMAND find "${prefix}" ! -type d OUTPUT_VARIABLE left)

@@ -23,6 +23,9 @@ namespace {
 
 constexpr std::chrono::milliseconds a_while{20};
 
+/// As Fortran's threadprivate arrays are: the system takes them of each thread's stack.
+thread_local volatile char of_the_host[1100 * 1024];
+
 class OfACrew : public testing::TestWithParam<int> {
  protected:
   Parallel parallel{GetParam()};
@@ -45,6 +48,18 @@ TEST_P(OfACrew, LoopsInsideOfBlocks) {
   std::vector<std::vector<int>> inner(20);
   parallel.for_blocks(inner.size(), 1, [&](std::size_t b, std::size_t) { inner[b] = counts_of(50 + b); });
   for (std::size_t b = 0; b < inner.size(); b++) EXPECT_EQ(inner[b], std::vector<int>(50 + b, 1));
+}
+
+TEST_P(OfACrew, AThreadHasItsStackBesideTheHostsThreadLocals) {
+  std::atomic<int> begun{0};
+  parallel.for_blocks(std::size_t(GetParam()), 1, [&](std::size_t, std::size_t) {
+    volatile char own[256 * 1024];
+    for (std::size_t i = 0; i < sizeof own; i += 1024) own[i] = of_the_host[i] = char(i);
+    begun++;
+    for (int i = 0; i < 500 && begun < GetParam(); i++) std::this_thread::sleep_for(a_while);  // for ever without room
+    for (std::size_t i = 0; i < sizeof own; i += 1024) EXPECT_EQ(own[i], of_the_host[i]);
+  });
+  EXPECT_EQ(begun, GetParam());
 }
 
 /// Each of the blocks waits for all others: there are as many threads, also after they slept.

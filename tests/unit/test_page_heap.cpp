@@ -15,6 +15,7 @@
 #include "../capi/failing_new.hpp"
 #include "memory.hpp"
 #include "page_heap.hpp"
+#include "status.hpp"
 
 namespace tetlod {
 namespace {
@@ -240,6 +241,20 @@ TEST(PageHeap, ServesTheLibrarysArrays) {
   EXPECT_FALSE(is_mapped(begin));
 }
 #endif
+
+/// What another thread asks for in vain does not count, not even for a moment.
+TEST(Memory, WhatIsRefusedTakesNothingFromOthers) {
+  constexpr std::size_t limit = 1000;
+  Memory memory({}, limit);
+  std::atomic<bool> enough{false};
+  std::thread other([&] {
+    while (!enough) EXPECT_THROW(Array<char>(2 * limit, &memory), Error);
+  });
+  for (int i = 0; i < 20000; i++) EXPECT_NO_THROW(Array<char>(limit / 2, &memory));
+  enough = true;
+  other.join();
+  EXPECT_EQ(memory.in_use(), 0u);
+}
 
 }  // namespace
 }  // namespace tetlod

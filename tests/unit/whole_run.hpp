@@ -78,7 +78,8 @@ class WholeRun : public testing::Test {
     EXPECT_EQ(is.components, was.components);
     EXPECT_EQ(is.euler, was.euler);
     EXPECT_LE(is.nonmanifold_edges, was.nonmanifold_edges);
-    EXPECT_NEAR(volume_of(copy) / volume_of(original), 1, volume_error);
+    const double most = report().remesh_attempts == 0 ? std::min(volume_error, 0.01) : volume_error;
+    EXPECT_NEAR(volume_of(copy) / volume_of(original), 1, most);
     const auto [low, high] = std::minmax_element(original.scalars.begin(), original.scalars.end());
     for (double s : mesh().scalars) EXPECT_TRUE(s >= *low && s <= *high);
     expect_report(original, was);

@@ -1,0 +1,155 @@
+#include "move_outward.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "boundary_distances.hpp"
+#include "cholesky.hpp"
+#include "remesh_checks.hpp"
+#include "star_lists.hpp"
+#include "tet_frame.hpp"
+
+namespace tetlod {
+
+namespace {
+
+constexpr std::size_t many = 1024;
+/// Of the diagonal.
+constexpr double rounding = 1e-12;
+/// Of what holds a vertex, so that nothing moves it along what is plane.
+constexpr double pull = 1e-2;
+/// Of the way, what is tried.
+constexpr double parts_of_way[] = {1, 0.75, 0.5, 0.25};
+/// Of the flattest tet's shape before: no tet gets flatter.
+constexpr double flattest_part = 0.2;
+/// Of the original's volume, that the mesh may have too much.
+constexpr double most_volume = 0.005;
+
+/// What original vertices say of where a vertex of the mesh should be.
+struct Evidence {
+  Triangular<3> a{};
+  Vector<3> b{};
+  Vec3 outward{0};
+
+  /// As far along a unit vector, of some weight.
+  void add(double weight, const Vec3 &direction, double distance) {
+    for (std::size_t i = 0; i < 3; i++) {
+      for (std::size_t j = 0; j <= i; j++) a[entry_of(i, j)] += weight * direction[int(i)] * direction[int(j)];
+      b[i] += weight * distance * direction[int(i)];
+    }
+  }
+  /// None where that is inward.
+  Vec3 step() const {
+    Triangular<3> pulled = a;
+    for (std::size_t i = 0; i < 3; i++) pulled[entry_of(i, i)] += pull / 3 * trace<3>(a);
+    const Cholesky<3> solver(pulled, 0);
+    if (!solver.regular()) return Vec3(0);
+    const Vector<3> x = solver.solve(b);
+    const Vec3 step(x[0], x[1], x[2]);
+    return glm::dot(step, outward) > 0 ? step : Vec3(0);
+  }
+};
+
+class OutwardMoves {
+ public:
+  OutwardMoves(const Surface &original, const TriangleTree &to_original, Job &job, TetMesh &mesh)
+      : original_(original),
+        to_original_(to_original),
+        job_(job),
+        mesh_(mesh),
+        of_rounding_(rounding * box_of(original.points).diagonal()),
+        room6_((1 + most_volume) * 6 * enclosed_volume(original.points, original.triangles).value -
+               6 * enclosed_volume(mesh.points, mesh.boundary).value),
+        evidence_(mesh.points.size(), Evidence(), &job.memory) {
+    gather();
+  }
+
+  void make(Span<const std::uint8_t> stays, Array<std::int32_t> &origin) {
+    const StarLists tets(Span<const Tet>(mesh_.tets), mesh_.points.size(), job_);
+    for (std::size_t v = 0; v < evidence_.size(); v++) {
+      if (v % many == 0) job_.poll(1);
+      const Vec3 step = evidence_[v].step();
+      const bool is_kept = origin[v] >= 0 && !stays.empty() && stays[std::size_t(origin[v])];
+      if (!is_kept && glm::length(step) > of_rounding_ && move(mesh_.points[v], step, tets.of(std::int32_t(v))))
+        origin[v] = -1;
+    }
+  }
+
+ private:
+  void gather() {
+    Array<std::int32_t> home(&job_.memory);
+    Array<double> distance(&job_.memory);
+    find_homes(original_.points, mesh_, job_, home, distance);
+    farthest_ = *std::max_element(distance.begin(), distance.end());
+    for (std::size_t i = 0; i < home.size(); i++) {
+      if (i % many == 0) job_.poll(1);
+      if (home[i] >= 0) add(original_.points[i], mesh_.boundary[std::size_t(home[i])]);
+    }
+  }
+
+  void add(const Vec3 &p, const Triangle &home) {
+    const TriangleInSpace triangle(mesh_.points, home);
+    const Vec3 across = glm::cross(triangle.b - triangle.a, triangle.c - triangle.a);
+    const double area = glm::length(across);
+    if (!(area > 0)) return;
+    const Vec3 weights = triangle.weights_nearest_to(p), way = p - triangle.at(weights);
+    const double distance = glm::length(way);
+    const bool is_off = distance > of_rounding_;
+    for (std::size_t k = 0; k < 3; k++) {
+      Evidence &of_corner = evidence_[std::size_t(home[k])];
+      of_corner.add(weights[int(k)], is_off ? way / distance : across / area, is_off ? distance : 0);
+      of_corner.outward += weights[int(k)] / area * across;
+    }
+  }
+
+  /// As far as the tets about it, the distance and the volume let it.
+  bool move(Vec3 &place, const Vec3 &step, Span<const std::int32_t> star) {
+    const Vec3 before = place;
+    const Tets old = look_at(star);
+    const double least2 = std::max(flattest_part * flattest_part * old.flattest2, least_shape * least_shape);
+    for (double part : parts_of_way) {
+      place = before + part * step;
+      const Tets fresh = look_at(star);
+      if (!(fresh.flattest2 > least2) || fresh.volume6 - old.volume6 > room6_) continue;
+      if (to_original_.nearest(place).distance > farthest_) continue;
+      room6_ -= fresh.volume6 - old.volume6;
+      return true;
+    }
+    place = before;
+    return false;
+  }
+
+  struct Tets {
+    double flattest2 = std::numeric_limits<double>::infinity();  // nothing where one is not positive
+    double volume6 = 0;
+  };
+
+  Tets look_at(Span<const std::int32_t> star) const {
+    Tets tets;
+    for (std::int32_t t : star) {
+      const auto at = [&](std::size_t k) { return mesh_.points[std::size_t(mesh_.tets[std::size_t(t)][k])]; };
+      const Vec3 a = at(0), b = at(1), c = at(2), d = at(3);
+      const double volume6 = det(a, b, c, d);
+      tets.volume6 += volume6;
+      tets.flattest2 = std::min(tets.flattest2, volume6 > 0 ? shape2(a, b, c, d) : 0);
+    }
+    return tets;
+  }
+
+  const Surface &original_;
+  const TriangleTree &to_original_;
+  Job &job_;
+  TetMesh &mesh_;
+  double of_rounding_, room6_;  // room6_: six times the volume that may be gained
+  double farthest_ = 0;         // of an original vertex, from the mesh
+  Array<Evidence> evidence_;    // of each vertex of the mesh
+};
+
+}  // namespace
+
+void move_outward(const Surface &original, const TriangleTree &to_original, Span<const std::uint8_t> stays, Job &job,
+                  TetMesh &mesh, Array<std::int32_t> &origin) {
+  OutwardMoves(original, to_original, job, mesh).make(stays, origin);
+}
+
+}  // namespace tetlod
