@@ -10,10 +10,13 @@ namespace tetlod {
 namespace {
 
 constexpr std::size_t block = 256;
-/// Of the diagonal.
-constexpr double rounding = 1e-12;
 
 }  // namespace
+
+double distance_of_rounding(const Surface &original) {
+  constexpr double part_of_diagonal = 1e-12;
+  return part_of_diagonal * box_of(original.points).diagonal();
+}
 
 void find_homes(Span<const Vec3> points, const TetMesh &mesh, Job &job, Array<std::int32_t> &home,
                 Array<double> &distance) {
@@ -37,7 +40,7 @@ BoundaryDistances::BoundaryDistances(const Surface &original, const TriangleTree
     : original_(original),
       mesh_(mesh),
       job_(job),
-      of_rounding_(rounding * box_of(original.points).diagonal()),
+      of_rounding_(distance_of_rounding(original)),
       to_original_(to_original),
       of_sample_(&job.memory),
       of_vertex_(mesh.points.size(), 0.0, &job.memory),

@@ -35,6 +35,9 @@ struct Goal {
   std::int64_t served;
 };
 
+/// Between surfaces of that size: what is no farther is not off.
+double distance_of_rounding(const Surface &original);
+
 /// Of each point, the triangle of the mesh's boundary that it is nearest to, or -1, and its distance.
 void find_homes(Span<const Vec3> points, const TetMesh &mesh, Job &job, Array<std::int32_t> &home,
                 Array<double> &distance);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "boundary_distances.hpp"
+#include "boundary_moves.hpp"
 #include "nearest_in_star.hpp"
 #include "remesh_checks.hpp"
 #include "replace_simplices.hpp"
@@ -17,10 +18,6 @@ namespace {
 constexpr int sweeps = 6;
 /// What a change leaves of a distance, at most; to gain less is not worth it.
 constexpr double most_left = 0.9;
-/// Of the flattest tet's shape before: no tet gets flatter.
-constexpr double flattest_part = 0.2;
-/// Of the original's volume, that the mesh may lack or have too much.
-constexpr double most_volume = 0.005;
 /// Of the way to where it would be none, what is tried.
 constexpr double parts_of_way[] = {1, 0.6, 0.3};
 /// A corner of more weight than that moves; one of less is no end of what is divided.
@@ -136,14 +133,10 @@ class DeviationLowering {
 
   // ---- A change
 
-  bool is_kept(std::int32_t v) const {
-    const std::int32_t at = origin_[std::size_t(v)];
-    return at >= 0 && !stays_.empty() && stays_[std::size_t(at)];
-  }
-
   bool may_change(const FewVertices &vertices) const {
-    return std::none_of(vertices.begin(), vertices.end(),
-                        [&](std::int32_t v) { return touched_[std::size_t(v)] || is_kept(v); });
+    return std::none_of(vertices.begin(), vertices.end(), [&](std::int32_t v) {
+      return touched_[std::size_t(v)] || stays_there(std::size_t(v), origin_, stays_);
+    });
   }
 
   bool may_move(std::int32_t v) {

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "boundary_distances.hpp"
+#include "boundary_moves.hpp"
 #include "cholesky.hpp"
 #include "remesh_checks.hpp"
 #include "star_lists.hpp"
@@ -14,16 +15,10 @@ namespace tetlod {
 namespace {
 
 constexpr std::size_t many = 1024;
-/// Of the diagonal.
-constexpr double rounding = 1e-12;
 /// Of what holds a vertex, so that nothing moves it along what is plane.
 constexpr double pull = 1e-2;
 /// Of the way, what is tried.
 constexpr double parts_of_way[] = {1, 0.75, 0.5, 0.25};
-/// Of the flattest tet's shape before: no tet gets flatter.
-constexpr double flattest_part = 0.2;
-/// Of the original's volume, that the mesh may have too much.
-constexpr double most_volume = 0.005;
 
 /// What original vertices say of where a vertex of the mesh should be.
 struct Evidence {
@@ -57,7 +52,7 @@ class OutwardMoves {
         to_original_(to_original),
         job_(job),
         mesh_(mesh),
-        of_rounding_(rounding * box_of(original.points).diagonal()),
+        of_rounding_(distance_of_rounding(original)),
         room6_((1 + most_volume) * 6 * enclosed_volume(original.points, original.triangles).value -
                6 * enclosed_volume(mesh.points, mesh.boundary).value),
         evidence_(mesh.points.size(), Evidence(), &job.memory) {
@@ -69,9 +64,8 @@ class OutwardMoves {
     for (std::size_t v = 0; v < evidence_.size(); v++) {
       if (v % many == 0) job_.poll(1);
       const Vec3 step = evidence_[v].step();
-      const bool is_kept = origin[v] >= 0 && !stays.empty() && stays[std::size_t(origin[v])];
-      if (!is_kept && glm::length(step) > of_rounding_ && move(mesh_.points[v], step, tets.of(std::int32_t(v))))
-        origin[v] = -1;
+      if (!(glm::length(step) > of_rounding_) || stays_there(v, origin, stays)) continue;
+      if (move(mesh_.points[v], step, tets.of(std::int32_t(v)))) origin[v] = -1;
     }
   }
 
@@ -89,7 +83,7 @@ class OutwardMoves {
 
   void add(const Vec3 &p, const Triangle &home) {
     const TriangleInSpace triangle(mesh_.points, home);
-    const Vec3 across = glm::cross(triangle.b - triangle.a, triangle.c - triangle.a);
+    const Vec3 across = area_vector(triangle.a, triangle.b, triangle.c);
     const double area = glm::length(across);
     if (!(area > 0)) return;
     const Vec3 weights = triangle.weights_nearest_to(p), way = p - triangle.at(weights);

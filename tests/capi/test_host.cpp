@@ -164,21 +164,21 @@ TEST(Host, ProgressThatThrowsCancels) {
 class TalkingWorker {
  public:
   explicit TalkingWorker(const char *seconds) {
-    const int file = mkstemp(path_);
+    const int file = mkstemp(path_.data());
     const std::string script = std::string("#!/bin/sh\necho hello from the worker\nsleep ") + seconds + "\n";
     EXPECT_EQ(write(file, script.data(), script.size()), ssize_t(script.size()));
     EXPECT_EQ(fchmod(file, 0700), 0);
     close(file);
   }
-  ~TalkingWorker() { unlink(path_); }
+  ~TalkingWorker() { unlink(path_.c_str()); }
   tetlod_config config() const {
     tetlod_config config = default_config();
-    config.remesher = path_;
+    config.remesher = path_.c_str();
     return config;
   }
 
  private:
-  char path_[32] = "/tmp/tetlod-talking-XXXXXX";
+  std::string path_ = testing::TempDir() + "tetlod-talking-XXXXXX";
 };
 
 struct Heard {
