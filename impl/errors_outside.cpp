@@ -1,5 +1,8 @@
 #include "errors_outside.hpp"
 
+#include <algorithm>
+#include <limits>
+
 #include "geometry.hpp"
 #include "kd_tree.hpp"
 #include "surface_distance.hpp"
@@ -8,6 +11,56 @@
 namespace tetlod {
 
 namespace {
+
+struct Boundary {
+  Boundary(const TetComplex &mesh, Job &job) : faces(faces_of(mesh, job)), tree(mesh.points, faces, job) {}
+
+  static Array<Triangle> faces_of(const TetComplex &mesh, Job &job) {
+    Array<Triangle> faces(&job.memory);
+    Array<std::int32_t> tet_of_face(&job.memory);
+    mesh.find_boundary(faces, tet_of_face);
+    return faces;
+  }
+
+  Array<Triangle> faces;
+  TriangleTree tree;
+};
+
+/// How far apart two may find what is the same.
+double rounding_of(const Array<Vec3> &points) {
+  constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
+  double largest = 0;
+  for (const Vec3 &p : points) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  return rounding * largest;
+}
+
+template <std::size_t m>
+bool is_corner(const AdaptiveMesh<m> &mesh, std::int32_t t, const Vec3 &p) {
+  const Tet &tet = mesh.tets[std::size_t(t)];
+  return std::any_of(tet.begin(), tet.end(), [&](std::int32_t v) { return mesh.points[std::size_t(v)] == p; });
+}
+
+/// Vertices in tets, but on the boundary, as far as rounding goes: to another they may be outside. Where a vertex of
+/// the mesh is, nobody is outside.
+template <std::size_t m>
+void add_those_on(const Boundary &boundary, Job &job, const AdaptiveMesh<m> &mesh, Array<std::int32_t> &outside) {
+  const double rounding = rounding_of(mesh.points);
+  Array<Array<std::int32_t>> parts(mesh.tets.size() / stretch + 1, &job.memory);
+  for_each(mesh.tets.size(), job, [&](std::size_t i) {
+    const auto t = std::int32_t(i);
+    if (!mesh.alive(t)) return;
+    const TetFrame frame = mesh.frame(t);
+    mesh.for_probes(t, [&](std::int32_t probe) {
+      if (std::size_t(probe) >= mesh.vertex_probes || mesh.outside[std::size_t(probe)]) return;
+      double w[4];
+      const Vec3 &p = mesh.probes[std::size_t(probe)].point;
+      if (frame.weights(p, w) > out_by_rounding || is_corner(mesh, t, p)) return;
+      if (boundary.tree.nearest(p).distance <= rounding)
+        parts[i / stretch].push_back(mesh.vertex_of_probe[std::size_t(probe)]);
+    });
+  });
+  for (const Array<std::int32_t> &part : parts) outside.insert(outside.end(), part.begin(), part.end());
+}
 
 template <std::size_t m>
 class OutsideVertices {
@@ -18,15 +71,11 @@ class OutsideVertices {
   std::int32_t vertex(std::size_t k) const { return vertices_[k]; }
 
   /// Of each, at the nearest point of the boundary.
-  Array<double> errors_on_boundary() const {
-    Array<Triangle> faces(&job_.memory);
-    Array<std::int32_t> tet_of_face(&job_.memory);
-    mesh_.find_boundary(faces, tet_of_face);
-    const TriangleTree boundary(mesh_.points, faces, job_);
+  Array<double> errors_on(const Boundary &boundary) const {
     Array<double> error(vertices_.size(), 0.0, &job_.memory);
     for_each(vertices_.size(), job_, [&](std::size_t k) {
-      const NearestPoint at = boundary.nearest(place(k));
-      const Triangle &face = faces[std::size_t(at.triangle)];
+      const NearestPoint at = boundary.tree.nearest(place(k));
+      const Triangle &face = boundary.faces[std::size_t(at.triangle)];
       const double w[4] = {at.weights[0], at.weights[1], at.weights[2], 0};
       error[k] = error_in(k, {face[0], face[1], face[2], face[0]}, w);
     });
@@ -88,9 +137,11 @@ OutsideErrors errors_outside(const MeshView &original, double bound, Job &job, c
   Array<std::int32_t> outside(&job.memory);
   for (std::size_t i = 0; i < mesh.outside.size(); i++)
     if (mesh.outside[i]) outside.push_back(mesh.vertex_of_probe[i]);
+  const Boundary boundary(mesh, job);
+  add_those_on(boundary, job, mesh, outside);
   if (outside.empty()) return errors;
   const OutsideVertices<m> vertices(original, std::move(outside), job, mesh);
-  const Array<double> on_boundary = vertices.errors_on_boundary(), in_tets = vertices.errors_in_tets();
+  const Array<double> on_boundary = vertices.errors_on(boundary), in_tets = vertices.errors_in_tets();
   for (std::size_t k = 0; k < in_tets.size(); k++) {
     if (std::max(on_boundary[k], in_tets[k]) > bound) errors.beyond.push_back(vertices.vertex(k));
     errors.largest = std::max(errors.largest, in_tets[k]);

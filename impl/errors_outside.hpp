@@ -5,7 +5,7 @@
 
 namespace tetlod {
 
-/// Of the original vertices that are outside.
+/// Of the original vertices that are outside, or on the boundary, as far as rounding goes.
 struct OutsideErrors {
   Array<std::int32_t> beyond;  ///< those where a field is off by more than the bound
   double largest = 0;  ///< in tets that they are out of by no more than rounding; largest_error() has the others
