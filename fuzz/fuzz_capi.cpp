@@ -310,7 +310,7 @@ void transfer_constant(Session &session, Bytes &in) {
   };
   tetlod_array original = described(from), simplified = described(to);
   const tetlod_status status = tetlod_transfer(session.context(), &original, &simplified);
-  check_documented("tetlod_transfer", status, {TETLOD_ERR_STATE, TETLOD_ERR_ARGUMENT, TETLOD_ERR_MEMORY_LIMIT});
+  check_documented("tetlod_transfer", status, {TETLOD_ERR_STATE, TETLOD_ERR_MEMORY_LIMIT, TETLOD_ERR_MESH_NONFINITE});
   if (status == TETLOD_OK) session.stencil_was_found();
   for (const double value : to) {
     const double wanted = status == TETLOD_OK ? constant : -5.0;

@@ -132,6 +132,7 @@ class Session {
   Stencil stencil() const;
   tetlod_status stencil_status() const;
   bool explains_limit(tetlod_status status) const;
+  bool explains_refusal(tetlod_status status) const;
   void accept_fields(const Mesh &mesh);
   void check_carried_kept() const;
   void check_stencil(const Mesh &mesh, const Stencil &stencil) const;

@@ -290,6 +290,11 @@ bool Session::explains_limit(tetlod_status status) const {
   return status == TETLOD_ERR_MEMORY_LIMIT && conditions_.memory_limit;
 }
 
+/// Values of a later step are read with the mesh, and may be such that it refuses.
+bool Session::explains_refusal(tetlod_status status) const {
+  return status == TETLOD_ERR_MESH_NONFINITE && stencil_status() == TETLOD_ERR_STATE;
+}
+
 void Session::fetch_stencil(Bytes &in) {
   const std::int64_t points = last_ ? std::int64_t(last_->points.size()) : 0;
   const std::int64_t room = std::max<std::int64_t>(0, points + in.between(-1, 3));
@@ -299,7 +304,8 @@ void Session::fetch_stencil(Bytes &in) {
   tetlod_array to_ids = ids.array(), to_weights = weights.array();
   const tetlod_status status = tetlod_fetch_stencil(context_, base, &to_ids, &to_weights);
   const tetlod_status wanted = !last_ ? TETLOD_ERR_STATE : room < points ? TETLOD_ERR_BUFFER_SIZE : stencil_status();
-  DEMAND(status == wanted || explains_limit(status), "the stencil: %d, not %d: %s", status, wanted, message().c_str());
+  DEMAND(status == wanted || explains_limit(status) || explains_refusal(status), "the stencil: %d, not %d: %s", status,
+         wanted, message().c_str());
   const std::int64_t written = status == TETLOD_OK ? points : 0;
   DEMAND(ids.rest_untouched(written) && weights.rest_untouched(written), "only the stencil is written");
   if (status != TETLOD_OK) return;
@@ -335,8 +341,8 @@ void Session::transfer(Bytes &in) {
                                : room < points      ? TETLOD_ERR_BUFFER_SIZE
                                : !fits              ? TETLOD_ERR_ARGUMENT
                                                     : stencil_status();
-  DEMAND(status == wanted || explains_limit(status), "moving a field: %d, not %d: %s", status, wanted,
-         message().c_str());
+  DEMAND(status == wanted || explains_limit(status) || explains_refusal(status), "moving a field: %d, not %d: %s",
+         status, wanted, message().c_str());
   DEMAND(simplified.rest_untouched(status == TETLOD_OK ? points : 0), "only the tuples of the result are written");
   if (status == TETLOD_OK) stencil_was_found();
   if (status != TETLOD_OK || conditions_.memory_limit) return;

@@ -8,17 +8,11 @@ namespace tetlod {
 
 namespace {
 constexpr std::chrono::milliseconds progress_interval{5};
-constexpr double no_limit = 1e9;
 }  // namespace
-
-double Job::seconds_left() const {
-  if (time_limit <= 0) return no_limit;
-  return time_limit - std::chrono::duration<double>(Clock::now() - begin_).count();
-}
 
 void Job::poll(double fraction) {
   if (cancel && cancel->load(std::memory_order_relaxed)) fail(Status::cancelled, "cancelled by tetlod_cancel");
-  if (seconds_left() <= 0)
+  if (time_limit > 0 && std::chrono::duration<double>(Clock::now() - begin_).count() >= time_limit)
     fail(Status::time_limit, "the time limit of %s seconds is used up", number(time_limit).c_str());
   if (std::this_thread::get_id() != owner_) {
     if (parallel.is_cancelled()) fail(Status::cancelled, "cancelled with the work that this is part of");

@@ -41,9 +41,6 @@ class Job {
   /// Status::time_limit. `fraction` of the stage that is done, in [0, 1]; the host is not told less than before.
   void poll(double fraction);
 
-  /// Seconds until the time limit; a large number when there is none.
-  double seconds_left() const;
-
  private:
   using Clock = std::chrono::steady_clock;
   Stage stage_ = Stage::prepare;

@@ -1,5 +1,6 @@
 #include "measure_error.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "geometry.hpp"
@@ -13,6 +14,19 @@ namespace tetlod {
 namespace {
 
 constexpr std::size_t block = 512;
+
+/// At weights w in t, of the first of `fields` at each vertex. Not beyond the values at the corners: a constant stays
+/// what it is, however large.
+double value_in(Span<const double> scalars, std::size_t fields, const Tet &t, const double w[4]) {
+  const auto at_corner = [&](std::size_t k) { return scalars[std::size_t(t[k]) * fields]; };
+  double sum = 0, low = at_corner(0), high = low;
+  for (std::size_t k = 0; k < 4; k++) {
+    sum += w[k] * at_corner(k);
+    low = std::min(low, at_corner(k));
+    high = std::max(high, at_corner(k));
+  }
+  return std::clamp(sum, low, high);
+}
 
 /// The result's piecewise linear field.
 class Field {
@@ -36,7 +50,7 @@ class Field {
       if (least > best) {
         best = least;
         found = true;
-        value = value_in(t, w);
+        value = value_in(mesh_.scalars, 1, t, w);
       }
       return best >= 0;
     });
@@ -44,18 +58,6 @@ class Field {
   }
 
  private:
-  /// Not beyond the values at the corners: a constant stays what it is, however large.
-  double value_in(const Tet &t, const double w[4]) const {
-    double sum = 0, low = mesh_.scalars[std::size_t(t[0])], high = low;
-    for (std::size_t k = 0; k < 4; k++) {
-      const double at_corner = mesh_.scalars[std::size_t(t[k])];
-      sum += w[k] * at_corner;
-      low = std::min(low, at_corner);
-      high = std::max(high, at_corner);
-    }
-    return std::clamp(sum, low, high);
-  }
-
   const TetMesh &mesh_;
   KdTree tree_;
 };
@@ -105,13 +107,8 @@ void add_sample(const MeshView &mesh, std::size_t tet, std::uint64_t key, const 
   double weights[4];
   random_weights(key, weights);
   Vec3 p(0);
-  double value = 0;
-  for (std::size_t k = 0; k < 4; k++) {
-    const auto v = std::size_t(mesh.tets[tet][k]);
-    p += weights[k] * mesh.points[v];
-    value += weights[k] * mesh.scalars[v * mesh.fields];
-  }
-  tally.add(field, p, value, unit);
+  for (std::size_t k = 0; k < 4; k++) p += weights[k] * mesh.points[std::size_t(mesh.tets[tet][k])];
+  tally.add(field, p, value_in(mesh.scalars, mesh.fields, mesh.tets[tet], weights), unit);
 }
 
 }  // namespace

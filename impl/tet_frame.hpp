@@ -10,15 +10,13 @@ namespace tetlod {
 /// The linear functions that are 1 at one corner of a tet and 0 at the others.
 struct TetFrame {
   Vec3 origin, row[3];
-  double volume6;
   double most;  ///< that a least weight may count as
 
   TetFrame() = default;
   TetFrame(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &d) : origin(a) {
     const Vec3 u = b - a, v = c - a, w = d - a;
     const Vec3 n = glm::cross(u, v);
-    volume6 = glm::dot(n, w);
-    const double inverse = 1 / volume6;
+    const double volume6 = glm::dot(n, w), inverse = 1 / volume6;
     row[0] = inverse * glm::cross(v, w);
     row[1] = inverse * glm::cross(w, u);
     row[2] = inverse * n;

@@ -10,8 +10,6 @@
 
 namespace tetlod {
 
-namespace {}  // namespace
-
 double expected_seconds(std::size_t points) { return 1e-5 * double(points) + 1e-3; }
 
 Worker::Worker(std::string path, std::uint64_t address_space)

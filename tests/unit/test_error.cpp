@@ -52,6 +52,13 @@ TEST_F(Measure, NothingForALinearFieldOnAnyMesh) {
   expect_zero(measure(coarse, 6, fine), 1e-12);
 }
 
+TEST_F(Measure, NothingForALargeConstantOnAnyMesh) {
+  Mesh fine = kuhn_cube(6), coarse = kuhn_cube(2);
+  for (Mesh *mesh : {&fine, &coarse}) set_scalars(*mesh, [](const Vec3 &) { return 1e10 / 3; });
+  expect_zero(measure(fine, 0, coarse), 0);
+  expect_zero(measure(coarse, 0, fine), 0);
+}
+
 TEST_F(Measure, AShiftIsTheErrorEverywhere) {
   Mesh original = kuhn_cube(4), result = original;
   set_scalars(original, waves);
