@@ -12,8 +12,8 @@ namespace tetlod {
 
 namespace {
 
-struct Boundary {
-  Boundary(const TetComplex &mesh, Job &job) : faces(faces_of(mesh, job)), tree(mesh.points, faces, job) {}
+struct BoundaryTree {
+  BoundaryTree(const TetComplex &mesh, Job &job) : faces(faces_of(mesh, job)), tree(mesh.points, faces, job) {}
 
   static Array<Triangle> faces_of(const TetComplex &mesh, Job &job) {
     Array<Triangle> faces(&job.memory);
@@ -43,7 +43,7 @@ bool is_corner(const AdaptiveMesh<m> &mesh, std::int32_t t, const Vec3 &p) {
 /// Vertices in tets, but on the boundary, as far as rounding goes: to another they may be outside. Where a vertex of
 /// the mesh is, nobody is outside.
 template <std::size_t m>
-void add_those_on(const Boundary &boundary, Job &job, const AdaptiveMesh<m> &mesh, Array<std::int32_t> &outside) {
+void add_those_on(const BoundaryTree &boundary, Job &job, const AdaptiveMesh<m> &mesh, Array<std::int32_t> &outside) {
   const double rounding = rounding_of(mesh.points);
   Array<Array<std::int32_t>> parts(mesh.tets.size() / stretch + 1, &job.memory);
   for_each(mesh.tets.size(), job, [&](std::size_t i) {
@@ -71,7 +71,7 @@ class OutsideVertices {
   std::int32_t vertex(std::size_t k) const { return vertices_[k]; }
 
   /// Of each, at the nearest point of the boundary.
-  Array<double> errors_on(const Boundary &boundary) const {
+  Array<double> errors_on(const BoundaryTree &boundary) const {
     Array<double> error(vertices_.size(), 0.0, &job_.memory);
     for_each(vertices_.size(), job_, [&](std::size_t k) {
       const NearestPoint at = boundary.tree.nearest(place(k));
@@ -137,7 +137,7 @@ OutsideErrors errors_outside(const MeshView &original, double bound, Job &job, c
   Array<std::int32_t> outside(&job.memory);
   for (std::size_t i = 0; i < mesh.outside.size(); i++)
     if (mesh.outside[i]) outside.push_back(mesh.vertex_of_probe[i]);
-  const Boundary boundary(mesh, job);
+  const BoundaryTree boundary(mesh, job);
   add_those_on(boundary, job, mesh, outside);
   if (outside.empty()) return errors;
   const OutsideVertices<m> vertices(original, std::move(outside), job, mesh);

@@ -43,6 +43,42 @@ TEST(Faults, EveryHookedAllocation) {
   EXPECT_EQ(allocator.mismatches(), 0);
 }
 
+struct Asked {
+  std::int32_t preset;
+  std::int32_t option;
+  double value;
+
+  void set(tetlod_context *context) const {
+    tetlod_set_preset(context, preset);
+    tetlod_set_real(context, option, value);
+  }
+};
+
+/// Sizes and bounds, which collapse edges, refine, and run again where they do not hold.
+TEST(Faults, EveryHookedAllocationOfSizesAndBounds) {
+  for (const Asked &asked : {Asked{TETLOD_PRESET_FAST, TETLOD_OPT_TARGET_RATIO, 0.3},
+                             Asked{TETLOD_PRESET_ACCURATE, TETLOD_OPT_TARGET_RATIO, 0.3},
+                             Asked{TETLOD_PRESET_FAST, TETLOD_OPT_MAX_ERROR, 0.05},
+                             Asked{TETLOD_PRESET_ACCURATE, TETLOD_OPT_MAX_DEVIATION, 0.01}}) {
+    CountingAllocator allocator;
+    {
+      Rerun rerun(allocator.config(), 3);
+      asked.set(rerun.context.get());
+      const Context other = make_context();
+      submit(other.get(), rerun.second);
+      asked.set(other.get());
+      ASSERT_EQ(tetlod_run(other.get()), TETLOD_OK) << message_of(other.get());
+      const long failures = allocator.fail_each(
+          rerun.context.get(), [&] { return tetlod_run(rerun.context.get()); },
+          [&](bool failed) { EXPECT_EQ(bytes_of(rerun.context.get()) == rerun.kept, failed); }, 200);
+      EXPECT_GT(failures, 10);
+      EXPECT_EQ(bytes_of(rerun.context.get()), bytes_of(other.get()));
+    }
+    EXPECT_EQ(allocator.in_use(), 0u);
+    EXPECT_EQ(allocator.mismatches(), 0);
+  }
+}
+
 TEST(Faults, EveryHookedAllocationOfMeasureError) {
   CountingAllocator allocator;
   Rerun rerun(allocator.config());

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <random>
 #include <set>
 
@@ -112,6 +113,26 @@ TEST_F(Flags, KeptVerticesAreThereInsideAndOnTheBoundary) {
   });
   run();
   expect_all_flagged_there();
+}
+
+/// Sizes and bounds are met by collapses, refined, and remeshed.
+TEST_F(Flags, KeptVerticesAreThereWhateverIsAskedFor) {
+  flag(TETLOD_FLAG_KEEP, [](const Point &p) { return std::abs(p[0] - p[1]) < 0.1 && p[2] > 0.4 && p[2] < 0.9; });
+  for (std::int32_t preset : {TETLOD_PRESET_FAST, TETLOD_PRESET_ACCURATE})
+    for (const auto &[option, value] : std::map<std::int32_t, double>{{TETLOD_OPT_TARGET_RATIO, 0.2},
+                                                                      {TETLOD_OPT_MAX_ERROR, 0.1},
+                                                                      {TETLOD_OPT_MAX_DEVIATION, 0.05},
+                                                                      {TETLOD_OPT_CLEAN_EDGES, 1e-3}})
+      for (int remesh : {0, 1}) {
+        tetlod_set_preset(context.get(), preset);
+        tetlod_set_real(context.get(), TETLOD_OPT_TARGET_RATIO, 0.2);
+        tetlod_set_real(context.get(), option, value);
+        tetlod_set_int(context.get(), TETLOD_OPT_REMESH, remesh);
+        SCOPED_TRACE(testing::Message() << preset << ", option " << option << ", remesh " << remesh);
+        run();
+        expect_all_flagged_there();
+        EXPECT_LT(points().size(), cube.values.size());
+      }
 }
 
 double from_middle(const Point &p) { return std::hypot(p[0] - 0.5, p[1] - 0.5, p[2] - 0.5); }
