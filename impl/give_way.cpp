@@ -100,7 +100,8 @@ bool give_way(std::int32_t t, std::int32_t probe, double bound, const ValueRange
   double w[4];
   mesh.frame(t).weights(mesh.probes[std::size_t(probe)].point, w);
   std::array<std::size_t, 4> order{0, 1, 2, 3};
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return w[a] > w[b]; });
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return w[a] != w[b] ? w[a] > w[b] : a < b; });
   Array<std::int32_t> around(&mesh.memory());
   for (std::size_t k : order) {
     const std::int32_t v = mesh.tets[std::size_t(t)][k];

@@ -44,6 +44,9 @@ speaks='(^|[^_[:alnum:]])(std::c(out|err|log)|(v?f?printf|puts|putchar|perror|_?
 rule 'the library neither prints, exits, aborts nor uses rand' \
   "$(lines "$speaks" 'impl/tetlod-remesh/' impl capi | code_only | grep -E ":[0-9]+:.*$speaks")"
 
+rule 'the library does not sort with memory that the host is not asked for' \
+  "$(lines 'std::(stable_sort|stable_partition|inplace_merge)' 'impl/tetlod-remesh/' impl capi)"
+
 # includes_of FOLDER EXCEPTION USER...: lines that include a header of the folder by its name, unless the including
 # file's own folder has a header of that name.
 includes_of() {
