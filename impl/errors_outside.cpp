@@ -34,8 +34,7 @@ double rounding_of(const Array<Vec3> &points) {
   return rounding * largest;
 }
 
-template <std::size_t m>
-bool is_corner(const AdaptiveMesh<m> &mesh, std::int32_t t, const Vec3 &p) {
+bool is_corner(const TetComplex &mesh, std::int32_t t, const Vec3 &p) {
   const Tet &tet = mesh.tets[std::size_t(t)];
   return std::any_of(tet.begin(), tet.end(), [&](std::int32_t v) { return mesh.points[std::size_t(v)] == p; });
 }
