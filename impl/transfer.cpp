@@ -1,7 +1,7 @@
 #include "transfer.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 #include <type_traits>
 
 namespace tetlod {
@@ -9,17 +9,26 @@ namespace tetlod {
 namespace {
 
 constexpr std::size_t block = 1 << 13;
+constexpr std::size_t batch = 16;  // points whose values are asked for together, as they lie anywhere in memory
 
-template <class From>
-double mean(const unsigned char *const tuple[4], std::int64_t offset, const std::array<double, 4> &weights) {
-  double sum = 0, low = std::numeric_limits<double>::infinity(), high = -low;
-  for (std::size_t k = 0; k < 4; k++) {
-    const double value = double(reinterpret_cast<const From *>(tuple[k] + offset)[0]);
-    sum += weights[k] == 0 ? 0 : weights[k] * value;  // 0 times infinity is no number
-    low = value < low ? value : low;
-    high = value > high ? value : high;
+/// 0 times infinity is no number, and a NaN of weight 0 has no part.
+double sum_of_those_with_weight(const std::array<double, 4> &values, const std::array<double, 4> &weights) {
+  double sum = 0;
+  for (std::size_t k = 0; k < 4; k++) sum += weights[k] == 0 ? 0 : weights[k] * values[k];
+  return sum;
+}
+
+/// Without a branch that depends on the point, whose vertices may be one, three or four.
+double mean(const std::array<double, 4> &values, const std::array<double, 4> &weights) {
+  double low = values[0], high = low, sum = weights[0] * values[0];
+  for (std::size_t k = 1; k < 4; k++) {
+    sum += weights[k] * values[k];
+    low = values[k] < low ? values[k] : low;
+    high = values[k] > high ? values[k] : high;
   }
-  return sum < low ? low : sum > high ? high : sum;
+  if (std::isnan(sum)) sum = sum_of_those_with_weight(values, weights);
+  sum = sum < low ? low : sum;
+  return sum > high ? high : sum;
 }
 
 /// move(a From, a To), of the types of the two arrays; To is `Narrow` or `Wide`.
@@ -43,19 +52,37 @@ void for_types(const StridedArray &from, const StridedArray &to, const Move &mov
   }
 }
 
+/// Where the original values of each point begin.
+using BatchTuples = std::array<std::array<const unsigned char *, 4>, batch>;
+
+void find_tuples(const Stencil &stencil, std::size_t begin, std::size_t end, const StridedArray &from,
+                 BatchTuples &tuples) {
+  for (std::size_t i = begin; i < end; i++)
+    for (std::size_t k = 0; k < 4; k++) {
+      tuples[i - begin][k] = from.data + stencil.ids[i][k] * from.tuple_stride;
+      __builtin_prefetch(tuples[i - begin][k]);
+    }
+}
+
 template <class From, class To>
-void move_mean(const Stencil &stencil, std::size_t i, const StridedArray &from, const StridedArray &to) {
-  const unsigned char *tuple[4];
-  for (std::size_t k = 0; k < 4; k++) tuple[k] = from.data + stencil.ids[i][k] * from.tuple_stride;
-  const std::array<double, 4> weights = stencil.weights[i];  // a copy, which what is written cannot change
-  const bool itself = weights[0] == 1;                       // also when its value is not finite
-  unsigned char *out = to.data + std::int64_t(i) * to.tuple_stride;
-  const int components = to.components;
-  const std::int64_t out_stride = to.component_stride, in_stride = from.component_stride;
-  for (std::int64_t c = 0; c < components; c++, out += out_stride) {
-    const double value = itself ? double(reinterpret_cast<const From *>(tuple[0] + c * in_stride)[0])
-                                : mean<From>(tuple, c * in_stride, weights);
-    reinterpret_cast<To *>(out)[0] = To(value);
+void move_mean(const std::array<const unsigned char *, 4> &tuple, std::array<double, 4> weights, std::int64_t in_stride,
+               unsigned char *out, const StridedArray &to) {
+  for (std::int64_t c = 0; c < to.components; c++, out += to.component_stride) {
+    std::array<double, 4> values;
+    for (std::size_t k = 0; k < 4; k++) values[k] = double(reinterpret_cast<const From *>(tuple[k] + c * in_stride)[0]);
+    reinterpret_cast<To *>(out)[0] = To(mean(values, weights));
+  }
+}
+
+template <class From, class To>
+void move_means(const Stencil &stencil, std::size_t begin, std::size_t end, StridedArray from, StridedArray to) {
+  BatchTuples tuples;
+  for (std::size_t first = begin, last; first < end; first = last) {
+    last = std::min(first + batch, end);
+    find_tuples(stencil, first, last, from, tuples);
+    for (std::size_t i = first; i < last; i++)
+      move_mean<From, To>(tuples[i - first], stencil.weights[i], from.component_stride,
+                          to.data + std::int64_t(i) * to.tuple_stride, to);
   }
 }
 
@@ -63,13 +90,6 @@ void move_mean(const Stencil &stencil, std::size_t i, const StridedArray &from, 
 std::int32_t heaviest(const Stencil &stencil, std::size_t i) {
   const std::array<double, 4> &weights = stencil.weights[i];
   return stencil.ids[i][std::size_t(std::max_element(weights.begin(), weights.end()) - weights.begin())];
-}
-
-/// Original vertices lie anywhere in memory: they are asked for some points ahead.
-void prefetch(const Stencil &stencil, std::size_t i, const StridedArray &from) {
-  constexpr std::size_t ahead = 12;
-  if (i + ahead >= stencil.ids.size()) return;
-  for (std::int32_t id : stencil.ids[i + ahead]) __builtin_prefetch(from.data + id * from.tuple_stride);
 }
 
 template <class From, class To>
@@ -88,13 +108,10 @@ void transfer(const Stencil &stencil, const StridedArray &from, const StridedArr
     using From = decltype(in);
     using To = decltype(out);
     job.parallel.for_blocks(stencil.ids.size(), block, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; i++) {
-        prefetch(stencil, i, from);
-        if constexpr (std::is_integral_v<From>)
-          move_copy<From, To>(heaviest(stencil, i), i, from, to);
-        else
-          move_mean<From, To>(stencil, i, from, to);
-      }
+      if constexpr (std::is_integral_v<From>)
+        for (std::size_t i = begin; i < end; i++) move_copy<From, To>(heaviest(stencil, i), i, from, to);
+      else
+        move_means<From, To>(stencil, begin, end, from, to);
       job.poll(1);
     });
   });
