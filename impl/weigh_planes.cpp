@@ -123,12 +123,14 @@ Losses sum_of(const Array<Losses> &losses, Memory &memory) {
           sum_without_largest(sorted(losses, &Losses::planes, memory), part_that_stays)};
 }
 
-/// By experience, as tests/bench/ACCURACY.md tells. share: of the vertices, on the boundary.
+/// By experience, as tests/bench/ACCURACY.md tells. share: of the vertices, on the boundary. A boundary with fewer than
+/// the least has as large a part of what is left, if that is coarse, and then to hold it costs what the field needs.
 double weight_of(const Losses &losses, double share) {
-  constexpr double least = 3, most = 1e5, by_losses = 4.5, most_losses = 5e3, usual_share = 0.7, power_of_share = 4;
+  constexpr double least = 3, by_losses = 4.5, most_losses = 5e3, usual_share = 0.7, least_share = 0.22,
+                   power_of_share = 4;
   const double ratio = losses.field < most_losses * losses.planes ? losses.field / losses.planes : most_losses;
-  const double of_inside = std::pow(usual_share / share, power_of_share);
-  return std::min(least + by_losses * std::sqrt(ratio) * (1 + of_inside), most);
+  const double of_inside = std::pow(usual_share / std::max(share, least_share), power_of_share);
+  return least + by_losses * std::sqrt(ratio) * (1 + of_inside);
 }
 
 }  // namespace

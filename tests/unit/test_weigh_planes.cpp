@@ -59,6 +59,11 @@ TEST_F(WeighPlanes, DependsLittleOnTheResolution) {
   EXPECT_NEAR(per_share(24) / per_share(12), 1, 0.3);
 }
 
+/// What a coarse mesh is left with has its boundary all the same.
+TEST_F(WeighPlanes, HoldsWallsOfFewVerticesNoMoreThanOfAFifth) {
+  EXPECT_NEAR(weight_of_cube(40, 0.1, waves) / weight_of_cube(26, 0.1, waves), 1, 0.3);
+}
+
 TEST_F(WeighPlanes, DependsOnNeitherUnitNorPlace) {
   Mesh mesh = kuhn_cube(8);
   transform(mesh, [](const Vec3 &p) { return p + 0.1 * Vec3(std::sin(7 * p.y), 0, std::sin(6 * p.x)); });
