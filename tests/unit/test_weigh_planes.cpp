@@ -60,8 +60,8 @@ TEST_F(WeighPlanes, DependsLittleOnTheResolution) {
 }
 
 /// What a coarse mesh is left with has its boundary all the same.
-TEST_F(WeighPlanes, HoldsWallsOfFewVerticesNoMoreThanOfAFifth) {
-  EXPECT_NEAR(weight_of_cube(40, 0.1, waves) / weight_of_cube(26, 0.1, waves), 1, 0.3);
+TEST_F(WeighPlanes, HoldsWallsOfFewVerticesNoMoreThanOfAQuarter) {
+  EXPECT_NEAR(weight_of_cube(40, 0.1, waves) / weight_of_cube(22, 0.1, waves), 1, 0.3);
 }
 
 TEST_F(WeighPlanes, DependsOnNeitherUnitNorPlace) {
