@@ -56,7 +56,7 @@ TEST_F(WeighPlanes, DependsLittleOnTheResolution) {
     const double inside = std::pow((n - 1.0) / (n + 1.0), 3);
     return weight_of_cube(n, 0.1, waves) / (1 + std::pow(0.7 / (1 - inside), 4));
   };
-  EXPECT_NEAR(per_share(24) / per_share(12), 1, 0.3);
+  EXPECT_NEAR(per_share(20) / per_share(10), 1, 0.3);
 }
 
 /// What a coarse mesh is left with has its boundary all the same.
