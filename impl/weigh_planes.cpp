@@ -126,7 +126,7 @@ Losses sum_of(const Array<Losses> &losses, Memory &memory) {
 /// By experience, as tests/bench/ACCURACY.md tells. share: of the vertices, on the boundary. A boundary with fewer than
 /// the least has as large a part of what is left, if that is coarse, and then to hold it costs what the field needs.
 double weight_of(const Losses &losses, double share) {
-  constexpr double least = 3, by_losses = 4.5, most_losses = 5e3, usual_share = 0.7, least_share = 0.25,
+  constexpr double least = 3, by_losses = 4.5, most_losses = 2e4, usual_share = 0.7, least_share = 0.25,
                    power_of_share = 4;
   const double ratio = losses.field < most_losses * losses.planes ? losses.field / losses.planes : most_losses;
   const double of_inside = std::pow(usual_share / std::max(share, least_share), power_of_share);

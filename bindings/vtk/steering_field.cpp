@@ -38,8 +38,9 @@ vtkDataArray *first_scalar(vtkPointData &data) {
   for (int i = 0; i < data.GetNumberOfArrays(); i++) {
     if (is_scalar(data.GetArray(i))) return data.GetArray(i);
   }
-  throw std::runtime_error("no field of one number a point, which a calculator makes of a vector; " +
-                           what_there_is(data));
+  const char *const why =
+      names_of(data).empty() ? "" : "no field of one number a point, which a calculator makes of a vector; ";
+  throw std::runtime_error(why + what_there_is(data));
 }
 
 }  // namespace
