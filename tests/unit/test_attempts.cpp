@@ -131,7 +131,7 @@ TEST_F(Attempted, IsMoreAccurateThanTheFirst) {
       better += std::log(rms(original) / first);
     }
   }
-  EXPECT_LT(better / double(cells.size() * ratios.size()), std::log(0.95));
+  EXPECT_LT(better / double(cells.size() * ratios.size()), std::log(0.97));
 }
 
 /// By a power of two, which rounds nothing.
