@@ -110,10 +110,13 @@ TEST_F(WorkerTest, ThreeThousandOpenDescriptors) {
     if (descriptor < 0) break;
     opened.push_back(descriptor);
   }
+  const bool has_all = opened.size() == 3000;
   use(TETLOD_REMESH);
-  EXPECT_TRUE(opened.size() < 3000 || works());
+  const bool good = has_all && works();
   for (const int descriptor : opened) ::close(descriptor);
   ::setrlimit(RLIMIT_NOFILE, &old);
+  if (!has_all) GTEST_SKIP() << "only " << opened.size() << " descriptors may be open";
+  EXPECT_TRUE(good);
 }
 
 TEST_F(WorkerTest, NoDescriptorsLeft) {
