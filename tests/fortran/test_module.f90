@@ -361,6 +361,7 @@ program test_module
   character(len=99) :: message
   if (command_argument_count() == 1) call none%run()
   if (command_argument_count() == 2) call none%run(errmsg=message)
+  if (command_argument_count() > 0) stop "the program goes on"
   call make_mesh()
   call test_layouts()
   call test_failures()

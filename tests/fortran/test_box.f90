@@ -1,0 +1,48 @@
+! What tests of the module tetlod share: a generated mesh with a linear field, and what is counted as a failure.
+module test_box
+  use, intrinsic :: iso_fortran_env, only: int32, real64
+  use box_mesh, only: make_box
+  use tetlod
+  implicit none
+  public
+  integer, parameter :: cells = 8
+  integer :: failures = 0
+  real(real64), allocatable, target :: xyz(:, :), values(:)
+  integer(int32), allocatable, target :: tets(:, :)
+
+contains
+
+  subroutine make_mesh()
+    call make_box(cells, xyz, tets)
+    allocate (values, source=linear(xyz))
+  end subroutine
+
+  pure function linear(points) result(field)
+    real(real64), intent(in) :: points(:, :)
+    real(real64) :: field(size(points, 2))
+    field = points(1, :) + 2 * points(2, :) - 3 * points(3, :)
+  end function
+
+  subroutine expect(holds, what)
+    logical, intent(in) :: holds
+    character(len=*), intent(in) :: what
+    if (holds) return
+    failures = failures + 1
+    print '("failed: ", a)', what
+  end subroutine
+
+  ! The context is there already. The whole boundary stays.
+  subroutine submit_box(lod)
+    type(tetlod_context), intent(inout) :: lod
+    call lod%set_rho(0.2)
+    call lod%set_sigma(1d0)
+    call lod%submit_points(xyz)
+    call lod%submit_tets(tets)
+    call lod%submit_scalars("linear", values)
+  end subroutine
+
+  elemental logical function same(a, b)
+    real(real64), intent(in) :: a, b
+    same = abs(a - b) < tiny(a)
+  end function
+end module
