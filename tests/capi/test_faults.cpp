@@ -325,6 +325,8 @@ TEST(Faults, CancelAnyTime) {
     else
       ASSERT_EQ(status, TETLOD_ERR_CANCELLED) << message_of(rerun.context.get());
   }
+  ASSERT_EQ(tetlod_run(rerun.context.get()), TETLOD_OK) << message_of(rerun.context.get());
+  EXPECT_EQ(bytes_of(rerun.context.get()), wanted);
 }
 
 TEST(Faults, TimeLimits) {

@@ -91,22 +91,37 @@ TEST_P(OfACrew, WhoWaitsHelps) {
   EXPECT_EQ(threads.size(), std::size_t(all));
 }
 
+/// Where there are other threads, the first block waits for what it is to end.
 TEST_P(OfACrew, WhatABlockThrowsEndsTheLoopsInsideOfOthers) {
+  std::atomic<int> ended{0};
   const auto fails = [&] {
+    std::atomic<int> begun{0};
     parallel.for_blocks(std::size_t(GetParam()), 1, [&](std::size_t b, std::size_t) {
+      begun++;
+      while (b == 0 && begun < GetParam()) std::this_thread::yield();
       if (b == 0) throw std::runtime_error("the first");
-      for (int turn = 0; !parallel.is_cancelled(); turn++) counts_of(3);
+      const auto goes_on = [&] {
+        for (;;) counts_of(3);
+      };
+      EXPECT_THROW(goes_on(), Error);
+      ended++;
     });
   };
   for (int turn = 0; turn < 20; turn++) EXPECT_THROW(fails(), std::runtime_error);
+  EXPECT_EQ(ended, 20 * (GetParam() - 1));
   EXPECT_FALSE(parallel.is_cancelled());
   EXPECT_EQ(counts_of(9), std::vector<int>(9, 1)) << "the next loop knows nothing of it";
 }
 
 TEST_P(OfACrew, WhatIsApartIsDoneWhereTheLoopAroundItIsCancelled) {
+  const bool has_others = GetParam() > 1;
+  std::atomic<int> done{0};
   const auto fails = [&] {
+    std::atomic<bool> begun{!has_others};
     parallel.for_blocks(2, 1, [&](std::size_t b, std::size_t) {
+      while (b == 0 && !begun) std::this_thread::yield();
       if (b == 0) throw std::runtime_error("the first");
+      begun = true;
       while (!parallel.is_cancelled()) std::this_thread::yield();
       EXPECT_THROW(counts_of(9), Error);
       const Loop::Apart apart;
@@ -114,9 +129,11 @@ TEST_P(OfACrew, WhatIsApartIsDoneWhereTheLoopAroundItIsCancelled) {
       std::atomic<int> blocks{0};
       other.for_blocks(9, 1, [&](std::size_t, std::size_t) { blocks++; });
       EXPECT_EQ(blocks, 9);
+      done++;
     });
   };
   for (int turn = 0; turn < 20; turn++) EXPECT_THROW(fails(), std::runtime_error);
+  EXPECT_EQ(done, has_others ? 20 : 0);
 }
 
 /// Signals are for the host's threads, but for faults.
