@@ -11,6 +11,7 @@ static void run_part(const char *name, void (*part)(void)) {
 
 int main(void) {
   run_part("texts", test_texts);
+  run_part("names", test_names);
   run_part("contexts", test_contexts);
   run_part("options", test_options);
   run_part("submit", test_submit);

@@ -80,6 +80,7 @@ void free_guarded(guarded *memory);
 /* ---- The tests, a file each ------------------------------------------------------------------------------------- */
 
 void test_texts(void);
+void test_names(void);
 void test_contexts(void);
 void test_options(void);
 void test_submit(void);
