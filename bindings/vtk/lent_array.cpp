@@ -73,8 +73,6 @@ LentArray lend_reals(vtkDataArray *array) {
   return evenly_spaced(pointers) ? in_parts(array, pointers) : copied(array);
 }
 
-LentArray lend_corners(vtkDataArray *connectivity) { return {connectivity, room_in(connectivity, 4)}; }
-
 LentArray lend_component(vtkDataArray *array, int component) {
   const std::vector<char *> pointers = component_pointers(*array);
   LentArray lent{array, {}};

@@ -19,9 +19,6 @@ bool is_real(int vtk_type);
 // one after another (SOA), which one and two components always are; otherwise a copy in doubles.
 LentArray lend_reals(vtkDataArray *array);
 
-// Four 32 or 64 bit point numbers a tuple, of an array of one component, as vtkCellArray has them.
-LentArray lend_corners(vtkDataArray *connectivity);
-
 // One component of an array that lend_reals would copy for its distances alone. Null data: it would be copied for
 // another reason.
 LentArray lend_component(vtkDataArray *array, int component);

@@ -137,6 +137,14 @@ TEST_F(Filter, AnArrayWithoutANameCannotBeAskedToSteer) {
   EXPECT_TRUE(listener.heard("name is empty"));
 }
 
+TEST_F(Filter, NothingIsMeasuredUntilItIsAskedFor) {
+  EXPECT_FALSE(filter->GetMeasureError());
+  const vtkMTimeType then = filter->GetMTime();
+  filter->MeasureErrorOn();
+  EXPECT_TRUE(filter->GetMeasureError());
+  EXPECT_GT(filter->GetMTime(), then) << "the filter runs again";
+}
+
 TEST_F(Filter, PrintsItsPropertiesAndWhatSteers) {
   filter->SetRho(0.375);
   filter->MeasureErrorOn();
