@@ -1,12 +1,12 @@
-! What tests of the module tetlod share: a generated mesh with a linear field, and what is counted as a failure.
+! What tests of the module tetlod share: a generated mesh with a linear field.
 module test_box
   use, intrinsic :: iso_fortran_env, only: int32, real64
   use box_mesh, only: make_box
+  use test_expect
   use tetlod
   implicit none
   public
   integer, parameter :: cells = 8
-  integer :: failures = 0
   real(real64), allocatable, target :: xyz(:, :), values(:)
   integer(int32), allocatable, target :: tets(:, :)
 
@@ -22,14 +22,6 @@ contains
     real(real64) :: field(size(points, 2))
     field = points(1, :) + 2 * points(2, :) - 3 * points(3, :)
   end function
-
-  subroutine expect(holds, what)
-    logical, intent(in) :: holds
-    character(len=*), intent(in) :: what
-    if (holds) return
-    failures = failures + 1
-    print '("failed: ", a)', what
-  end subroutine
 
   ! The context is there already. The whole boundary stays.
   subroutine submit_box(lod)

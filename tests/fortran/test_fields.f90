@@ -2,22 +2,14 @@
 module field_tests
   use, intrinsic :: iso_fortran_env, only: int32, int64, int8, real32, real64
   use box_mesh, only: make_box
+  use test_expect
   use tetlod
   implicit none
   integer, parameter :: cells = 8
-  integer :: failures = 0
   real(real64), allocatable, target :: xyz(:, :), values(:)
   integer(int32), allocatable, target :: tets(:, :)
 
 contains
-
-  subroutine expect(holds, what)
-    logical, intent(in) :: holds
-    character(len=*), intent(in) :: what
-    if (holds) return
-    failures = failures + 1
-    print '("failed: ", a)', what
-  end subroutine
 
   ! A linear field of two components: exact at every point inside, whatever its tet.
   elemental real(real64) function linear(x, y, z, component)

@@ -2,10 +2,10 @@
 module module_tests
   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_loc
   use, intrinsic :: iso_fortran_env, only: int32, int64, real32, real64
+  use test_expect
   use tetlod
   implicit none
   integer, parameter :: cells = 8, row = cells + 1, points = row**3, tets = 6 * cells**3
-  integer :: failures = 0
   real(real64), target :: xyz(3, points), values(points)
   integer(int32), target :: corners(4, tets)
 
@@ -22,14 +22,6 @@ module module_tests
   end type
 
 contains
-
-  subroutine expect(holds, what)
-    logical, intent(in) :: holds
-    character(len=*), intent(in) :: what
-    if (holds) return
-    failures = failures + 1
-    print '("failed: ", a)', what
-  end subroutine
 
   pure integer function node(p)
     integer, intent(in) :: p(3)

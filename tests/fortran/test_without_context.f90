@@ -2,21 +2,14 @@
 ! were: here there is no context.
 module without_context_tests
   use, intrinsic :: iso_fortran_env, only: int8, int32, int64, real32, real64
+  use test_expect
   use tetlod
   implicit none
-  integer :: failures = 0, stat = -1
+  integer :: stat = -1
   character(len=60) :: message = ""
   type(tetlod_context) :: none
 
 contains
-
-  subroutine expect(holds, what)
-    logical, intent(in) :: holds
-    character(len=*), intent(in) :: what
-    if (holds) return
-    failures = failures + 1
-    print '("failed: ", a)', what
-  end subroutine
 
   ! Of the call before, and makes ready for the next.
   subroutine told(what)
