@@ -115,16 +115,9 @@ CoarseSolid decimate_and_check(const OriginalSolid &original, const SolidOptions
   return coarse;
 }
 
-}  // namespace
-
-bool is_better(const CoarseSolid &a, const CoarseSolid &b) {
-  return !b.is_sound || (a.is_sound && a.mesh.tets.size() < b.mesh.tets.size());
-}
-
-CoarseSolid decimate_solid_and_check(const OriginalSolid &original, SolidOptions options, std::int64_t lowered,
-                                     SolidHistory &history, Job &job) {
-  const Array<std::uint8_t> touching = touching_vertices(original, job.memory);
-  options.touching = touching;
+/// decimate_and_check, with care where that has to be.
+CoarseSolid decimate_with_care(const OriginalSolid &original, SolidOptions options, std::int64_t lowered,
+                               SolidHistory &history, Job &job) {
   CoarseSolid best = decimate_and_check(original, options, lowered, history, job);
   const std::int64_t reused = best.reused;  // of other runs
   const auto all = std::int64_t(original.mesh.tets.size()), few = late * std::int64_t(best.mesh.tets.size());
@@ -139,6 +132,45 @@ CoarseSolid decimate_solid_and_check(const OriginalSolid &original, SolidOptions
   }
   best.reused = reused;
   return best;
+}
+
+/// Where it slides within itself, nothing holds the end of what is thin. Unless something follows that may lead to the
+/// size.
+bool went_astray(const CoarseSolid &coarse, const SolidOptions &options, double far) {
+  const bool is_last = coarse.wrong.empty() || options.may_relax, has_limit = options.max_deviation > 0;
+  return coarse.is_sound && is_last && !has_limit && options.enough == 0 && coarse.deviation > far;
+}
+
+/// With no more tets, but for what the largest errors would get at least.
+bool is_nearer(const CoarseSolid &a, const CoarseSolid &b, std::int64_t size) {
+  const auto most = std::max(std::int64_t(b.mesh.tets.size()), size + size * 3 / 100);
+  return a.is_sound && std::int64_t(a.mesh.tets.size()) <= most && a.deviation < b.deviation;
+}
+
+}  // namespace
+
+bool is_better(const CoarseSolid &a, const CoarseSolid &b) {
+  return !b.is_sound || (a.is_sound && a.mesh.tets.size() < b.mesh.tets.size());
+}
+
+CoarseSolid decimate_solid_and_check(const OriginalSolid &original, SolidOptions options, std::int64_t lowered,
+                                     SolidHistory &history, Job &job) {
+  const Array<std::uint8_t> touching = touching_vertices(original, job.memory);
+  options.touching = touching;
+  CoarseSolid coarse = decimate_with_care(original, options, lowered, history, job);
+  const double diagonal = box_of(original.surface.points).diagonal();
+  if (!went_astray(coarse, options, 2 * far_off * diagonal)) return coarse;
+  for (const double limit : {far_off, 2 * far_off}) {
+    if (job.log)
+      job.log(1, text("the boundary is %.2g of the diagonal off: edges collapse again, to %.2g at most",
+                      coarse.deviation / diagonal, limit)
+                     .c_str());
+    options.max_deviation = limit * diagonal;
+    CoarseSolid nearer = decimate_with_care(original, options, lowered, history, job);
+    nearer.reused = coarse.reused;
+    if (is_nearer(nearer, coarse, options.tets)) return nearer;
+  }
+  return coarse;
 }
 
 }  // namespace tetlod

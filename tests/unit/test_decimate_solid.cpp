@@ -376,5 +376,18 @@ TEST_F(DecimateSolid, AFlatBodyReachesItsSizeAsRulesGiveWay) {
   }
 }
 
+/// Nothing but the distance holds the end of a slit, which slides along the others' planes.
+TEST_F(DecimateSolid, SlitsKeepTheirLengthWhereTheSizeIsMetAllTheSame) {
+  Mesh slab = slab_with_slits();
+  set_scalars(slab, waves);
+  start_with(slab);
+  for (const double ratio : {0.1, 0.07, 0.05}) {
+    CoarseSolid coarse(host.memory);
+    EXPECT_TRUE(decimate(ratio, host, coarse)) << failure;
+    expect_sound(coarse);
+    EXPECT_LT(coarse.deviation, 2 * far_off * box_of(surface.points).diagonal()) << ratio;
+  }
+}
+
 }  // namespace
 }  // namespace tetlod
