@@ -37,7 +37,12 @@ TEST_F(WeighPlanes, HoldsPlaneWalls) {
 TEST_F(WeighPlanes, HoldsUnevenWallsLessTheLessTheFieldChanges) {
   const auto weaker = [](const Vec3 &p) { return p.x + 0.01 * waves(p); };
   EXPECT_GT(weight_of_cube(10, 0.1, waves), 3 * weight_of_cube(10, 0.1, weaker));
-  EXPECT_LT(weight_of_cube(10, 0, waves), 2.5 * weight_of_cube(10, 0, weaker)) << "plane walls cost little to hold";
+}
+
+/// With fewer cells more than the quarter that stays longest is next to the cube's edges, where planes are lost.
+TEST_F(WeighPlanes, HoldsPlaneWallsWhateverTheFieldChanges) {
+  const auto weaker = [](const Vec3 &p) { return p.x + 0.01 * waves(p); };
+  EXPECT_EQ(weight_of_cube(14, 0, waves), weight_of_cube(14, 0, weaker)) << "plane walls cost nothing to hold";
 }
 
 /// Or jumps: most vertices lose nothing of it, a few do.
