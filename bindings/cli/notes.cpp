@@ -1,5 +1,8 @@
 #include "notes.hpp"
 
+#include <vtkDataArray.h>
+#include <vtkPointData.h>
+
 #include <sstream>
 
 namespace cli {
@@ -22,13 +25,46 @@ void note_unused_options(vtkTetlodSimplify &filter, const Arguments &arguments, 
     notes.push_back("--target-ratio 0 makes of any preset the paper's; " + size + " belongs to the others");
 }
 
+tetlod_run_report report_of(vtkTetlodSimplify &filter) {
+  tetlod_run_report report{};
+  report.struct_size = sizeof report;
+  check(tetlod_fetch_report(filter.GetContext(), &report), filter.GetContext());
+  return report;
+}
+
+// "; --field takes another: a, b"; nothing where there is none.
+std::string other_fields(vtkPointData &data, const std::string &field) {
+  std::string names;
+  for (int i = 0; i < data.GetNumberOfArrays(); i++) {
+    vtkDataArray *array = data.GetArray(i);
+    if (array == nullptr || array->GetName() == nullptr || array->GetName() == field) continue;
+    if (array->GetNumberOfComponents() <= 3) names += (names.empty() ? "" : ", ") + std::string(array->GetName());
+  }
+  return names.empty() ? "" : "; --field takes another: " + names;
+}
+
+bool has_whole_numbers(vtkDataArray *array) {
+  return array != nullptr && array->GetDataType() != VTK_FLOAT && array->GetDataType() != VTK_DOUBLE;
+}
+
+// One that says nothing of where tets are needed, or that is hardly meant.
+void note_field(vtkTetlodSimplify &filter, const Arguments &arguments, std::vector<std::string> &notes) {
+  vtkPointData &data = *vtkUnstructuredGrid::SafeDownCast(filter.GetInputDataObject(0, 0))->GetPointData();
+  const std::string field = filter.GetOutput()->GetPointData()->GetScalars()->GetName();
+  const tetlod_run_report report = report_of(filter);
+  std::string what;
+  if (report.scalar_min == report.scalar_max)
+    what = "is constant: shape alone decided";
+  else if (arguments.field.empty() && has_whole_numbers(data.GetArray(field.c_str())))
+    what = "has whole numbers, as names of points do";
+  if (!what.empty()) notes.push_back("the field '" + field + "' " + what + other_fields(data, field));
+}
+
 void note_missed_size(vtkTetlodSimplify &filter, std::vector<std::string> &notes) {
   constexpr double usual = 1.03;  // what is within that is met
   const double asked = filter.GetOption("target-ratio");
   if (asked <= 0 || filter.GetOption("max-error") > 0) return;
-  tetlod_run_report report{};
-  report.struct_size = sizeof report;
-  check(tetlod_fetch_report(filter.GetContext(), &report), filter.GetContext());
+  const tetlod_run_report report = report_of(filter);
   const double kept = static_cast<double>(report.tets_out) / static_cast<double>(report.tets_in - report.dropped_tets);
   if (kept <= usual * asked) return;
   std::ostringstream text;
@@ -42,6 +78,7 @@ void note_missed_size(vtkTetlodSimplify &filter, std::vector<std::string> &notes
 }  // namespace
 
 void add_notes(vtkTetlodSimplify &filter, const Arguments &arguments, std::vector<std::string> &notes) {
+  note_field(filter, arguments, notes);
   note_unused_options(filter, arguments, notes);
   note_missed_size(filter, notes);
 }

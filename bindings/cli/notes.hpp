@@ -8,7 +8,8 @@
 
 namespace cli {
 
-// Options that mean nothing beside others, and a size that was not met. Of a filter that has run.
+// A field that is hardly meant, options that mean nothing beside others, a size that was not met. Of a filter that has
+// run.
 void add_notes(vtkTetlodSimplify &filter, const Arguments &arguments, std::vector<std::string> &notes);
 
 }  // namespace cli

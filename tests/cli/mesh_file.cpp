@@ -186,10 +186,10 @@ void write_points(std::ostream &file, const Cube &cube, const Lattice &lattice) 
 }
 
 void write_scalars(std::ostream &file, const Cube &cube, const Lattice &lattice) {
-  file << "SCALARS heat " << cube.real << " 1\nLOOKUP_TABLE default\n";
+  file << "SCALARS heat " << cube.heat << " 1\nLOOKUP_TABLE default\n";
   lattice.for_each_node([&](const Node &n) {
     const auto [x, y, z] = lattice.point(n);
-    file << x + 2 * y + 3 * z << '\n';
+    file << cube.hottest / 6 * (x + 2 * y + 3 * z) << '\n';
   });
   file << "SCALARS " << cube.other << ' ' << cube.real << " 1\nLOOKUP_TABLE default\n";
   lattice.for_each_node([&](const Node &n) { file << lattice.point(n)[0] << '\n'; });

@@ -10,7 +10,9 @@ enum class Kind { tet, hexahedron, voxel, wedge, pyramid, quadratic_tet, quadrat
 struct Cube {
   Kind kind = Kind::tet;
   int size = 6;
-  std::string real = "double";  // type of coordinates and values: float or double
+  std::string real = "double";  // type of coordinates and other values: float or double
+  std::string heat = "double";  // type of its values
+  double hottest = 6;           // value of "heat" in the last corner
   std::string other = "other";  // its name, encoded as the format has it
   std::string integer;          // int or vtktypeint64: format 5.1; empty: format 4.2
   double shift = 0;             // of all points along x
@@ -19,8 +21,8 @@ struct Cube {
   bool vectors_alone = false;   // no scalars
 };
 
-// Point data: the active scalars "heat" = x + 2 y + 3 z, further scalars "other" = x, vectors "flow" = (0, -x, 0). Cell
-// data: "part", 5 or 6 in turns.
+// Point data: the active scalars "heat" = x + 2 y + 3 z, as a part of `hottest`, further scalars "other" = x, vectors
+// "flow" = (0, -x, 0). Cell data: "part", 5 or 6 in turns.
 void write_cube(const std::string &path, const Cube &cube);
 
 }  // namespace cli_test

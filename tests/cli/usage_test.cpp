@@ -92,6 +92,20 @@ TEST_F(Usage, OptionsWithoutMeaningAndAMissedSizeAreNoted) {
       << missed.err;
 }
 
+TEST_F(Usage, AFieldThatIsHardlyMeantIsNoted) {
+  Cube cube;
+  cube.hottest = 0;
+  const std::string others = "; --field takes another: other, flow\n";
+  EXPECT_EQ(run_on(cube, {"--target-ratio", "0.5"}).err,
+            "tetlod: note: the field 'heat' is constant: shape alone decided" + others);
+  cube.hottest = 6;
+  cube.heat = "int";
+  cube.size = 1;
+  EXPECT_EQ(run_on(cube, {"--target-ratio", "1"}).err,
+            "tetlod: note: the field 'heat' has whole numbers, as names of points do" + others);
+  EXPECT_EQ(run_on(cube, {"--target-ratio", "1", "--field", "heat"}).err, "");
+}
+
 TEST_F(Usage, OfSeveralTimeStepsOneIsTaken) {
   const std::string in = folder / "in.vtu", out = folder / "out.vtu", grid = "<UnstructuredGrid";
   write_cube(folder / "in.vtk", {});
