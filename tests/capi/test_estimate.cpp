@@ -58,7 +58,7 @@ TEST(EstimateMemory, KnowsTargetsBoundsAndFields) {
 /// With further attempts, and rounds, for accuracy: where much is kept, what they take decides.
 TEST(EstimateMemory, KnowsSmallMeshes) {
   for (int n : {8, 15, 17})
-    for (double ratio : {0.01, 0.1, 0.5, 0.9}) {
+    for (double ratio : {0.01, 0.1, 0.5, 0.9, 1.0}) {
       const Cube cube(n);
       const Context context = make_context();
       submit(context.get(), cube);
