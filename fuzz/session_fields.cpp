@@ -278,21 +278,22 @@ void Session::fetch_field(Bytes &in) {
     }
 }
 
-/// Known, or found now from the arrays of the run, if they are still submitted.
+/// Known, or found now in the mesh of the run, if that is still submitted.
 tetlod_status Session::stencil_status() const {
   if (stencil_known_) return TETLOD_OK;
-  const bool same = points_ == last_points_ && tets_ == last_tets_ && values_ == last_values_ && base_ == last_base_ &&
-                    steering() == last_steering_;
-  return complete() && same ? TETLOD_OK : TETLOD_ERR_STATE;
+  const bool same_mesh = points_ == last_points_ && tets_ == last_tets_ && base_ == last_base_;
+  return complete() && same_mesh ? TETLOD_OK : TETLOD_ERR_STATE;
 }
 
 bool Session::explains_limit(tetlod_status status) const {
   return status == TETLOD_ERR_MEMORY_LIMIT && conditions_.memory_limit;
 }
 
-/// Values of a later step are read with the mesh, and may be such that it refuses.
+/// Values of a later step are read with the mesh: they may be too few, refused, or others may be ignored.
 bool Session::explains_refusal(tetlod_status status) const {
-  return status == TETLOD_ERR_MESH_NONFINITE && stencil_status() == TETLOD_ERR_STATE;
+  const bool same_values = values_ == last_values_ && steering() == last_steering_;
+  return complete() && !stencil_known_ && !same_values &&
+         (status == TETLOD_ERR_ARGUMENT || status == TETLOD_ERR_STATE || status == TETLOD_ERR_MESH_NONFINITE);
 }
 
 void Session::fetch_stencil(Bytes &in) {
