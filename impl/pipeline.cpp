@@ -2,34 +2,26 @@
 
 #include <chrono>
 #include <limits>
-#include <optional>
 
 #include "attempts.hpp"
-#include "beginning.hpp"
-#include "beside.hpp"
 #include "carry_fields.hpp"
-#include "cull_samples.hpp"
 #include "decimate_solid_and_check.hpp"
 #include "describe.hpp"
 #include "footprint.hpp"
 #include "hash.hpp"
-#include "kept_vertices.hpp"
 #include "nested_solids.hpp"
-#include "reconstruct_field.hpp"
 #include "refine.hpp"
+#include "remeshing.hpp"
 #include "scale_back.hpp"
 #include "status.hpp"
-#include "surface_distance.hpp"
-#include "surface_topology.hpp"
 
 namespace tetlod {
 
 namespace {
 
-class Pipeline : private Beginning {
+class Pipeline : private Remeshing {
  public:
-  Pipeline(const Input &input, const Options &options, Prepared &prepared, Job &job, Result &result)
-      : Beginning(input, options, prepared, job, result), mesh_(result.mesh) {}
+  using Remeshing::Remeshing;
 
   void run(Worker &worker) {
     if (as_published(options_) && !options_.remesh)
@@ -50,16 +42,6 @@ class Pipeline : private Beginning {
   }
 
  private:
-  /// As the paper does: fills the boundary, decimated less where TetGen finds no way.
-  void simplify(Worker &worker) {
-    while (!fill(worker)) {
-      if (budget_.sigma >= 1 || ladder_ == Ladder::first_rung) throw Error(Status::remesh, failure_);
-      report_.boundary_retries++;
-      budget_.sigma = less_decimated(budget_.sigma);
-      decimate(budget_.sigma);
-    }
-  }
-
   /// Where the bound does not hold because the boundary is too coarse, one with more triangles follows.
   void run_to_target(Worker &worker) {
     for (double ratio = ratio_of(options_); !meet_budget(worker);) {
@@ -148,22 +130,6 @@ class Pipeline : private Beginning {
     return is_of_the_size;
   }
 
-  /// False: to too many tets, or, as TetGen finds no way, to none; nor where the boundary has no volume left as doubles
-  /// round, if collapses have a result.
-  bool remesh_to_target(Worker &worker) {
-    decimate_and_sample();
-    try {
-      simplify(worker);
-      meet_target(worker);
-    } catch (const Error &error) {
-      const bool is_flat = error.status() == Status::mesh_degenerate, has_collapsed = ladder_ == Ladder::first_rung;
-      if (error.status() != Status::remesh && !(is_flat && has_collapsed)) throw;
-      return false;
-    }
-    reconstruct_field();
-    return meets_size(budget_, mesh_);
-  }
-
   /// To the budget, or to what suits the bound, where that betters `best`. False: to no sound mesh of the size.
   bool collapse_edges(bool may_relax, CoarseSolid &best) {
     describe_boundary(prepared_.topology(job_), report_);
@@ -182,12 +148,6 @@ class Pipeline : private Beginning {
     if (job_.log && failure != failure_) job_.log(1, failure.c_str());
     if (failure_.empty()) failure_ = failure;
     return false;
-  }
-
-  /// Of the original's boundary.
-  TreeOnDemand &tree() {
-    if (!tree_) tree_.emplace(prepared_.surface(job_));
-    return *tree_;
   }
 
   SolidOptions collapse_options() const {
@@ -231,29 +191,6 @@ class Pipeline : private Beginning {
     fail(Status::max_error, "%s", failed_bound(options_.max_error, beyond_, input_.index_base, report_).c_str());
   }
 
-  /// What TetGen makes of so many samples is known afterwards alone: too many tets are taken back here, too few are
-  /// made good by refine().
-  void meet_target(Worker &worker) {
-    double sigma = budget_.sigma;
-    for (int round = 0; round < most_rounds; round++) {
-      const double excess = double(remeshed_.tets.size()) - double(budget_.tets);
-      if (excess <= 0) return;
-      const std::int64_t edges = report_.boundary_edges_out;
-      if (budget_.samples > 0) {
-        const double surplus = (excess + spare * double(budget_.tets)) / tets_a_sample;
-        budget_.samples -= std::min(budget_.samples, std::size_t(1 + surplus));
-        sample();
-      } else {
-        sigma *= double(budget_.tets) / double(remeshed_.tets.size());
-        decimate(sigma);
-        if (report_.boundary_edges_out >= edges) round = most_rounds;  // the topology allows no less
-      }
-      if (fill(worker)) continue;
-      decimate(budget_.sigma);
-      return simplify(worker);
-    }
-  }
-
   /// A tree that is made anew, which a limit to the deviation asks for at once, takes less than memory that the run has
   /// not had.
   void make_room_to_refine() {
@@ -268,11 +205,16 @@ class Pipeline : private Beginning {
     const bool is_original = collapsed && is_the_original(mesh_, origin_, report_);
     Array<std::uint8_t> kept = kept_.flags_of(origin_, job_.memory);
     if (is_original) kept.assign(mesh_.points.size(), keep_vertex);
-    const bool follows_field = !is_original && (!collapsed || options_.effort == effort_accurate);
-    const std::int64_t before = tets_before_lowering(budget_, options_, report_, collapsed, mesh_.tets.size());
-    const RefineOptions options{
-        budget_.tets, before,  report_.steiner_points, follows_field, rounds_of(options_, report_), bound,
-        kept,         &tree(), deviation_limit()};
+    RefineOptions options;
+    options.tets = budget_.tets;
+    options.before_lowering = tets_before_lowering(budget_, options_, report_, collapsed, mesh_.tets.size());
+    options.steiner = report_.steiner_points;
+    options.follows_field = !is_original && (!collapsed || options_.effort == effort_accurate);
+    options.rounds = rounds_of(options_, report_);
+    options.bound = bound;
+    options.kept = kept;
+    options.boundary = &tree();
+    options.max_deviation = deviation_limit();
     RefineReport refined(job_.memory);
     // A bound is looked for all the same: the sides of a slit may be nearer than weights are rounded by.
     if (bound > 0 || !is_original) refined = tetlod::refine(original_.view, options, job_, mesh_);
@@ -282,89 +224,6 @@ class Pipeline : private Beginning {
     beyond_ = std::move(refined.beyond_bound);
   }
 
-  /// False: TetGen finds no way with all that is to be kept.
-  bool fill(Worker &worker) {
-    cull();
-    try {
-      remesh(worker);
-      if (!original_.flags.empty())
-        kept_.refuse_lost(selected_, original_vertices({surface_, samples_, remeshed_}, job_.memory),
-                          original_.index_base, job_.memory);
-      return true;
-    } catch (const Error &error) {
-      if (error.status() != Status::remesh) throw;
-      refuse_overlapping_solids();
-      failure_ = error.what();
-      if (job_.log) job_.log(2, error.what());
-      return false;
-    }
-  }
-
-  /// Too dear to be looked for when nothing is wrong. Of the original, whose vertices have names.
-  void refuse_overlapping_solids() {
-    refuse_nested_solids(prepared_.surface(job_), prepared_.topology(job_), tree(), input_.index_base, job_);
-  }
-
-  void decimate(double sigma) {
-    const StageTimer timer(Stage::decimate, job_, report_);
-    tree_.reset();  // the memory is wanted
-    describe_boundary(prepared_.topology(job_), report_);
-    const Surface &surface = prepared_.surface(job_);
-    const double range = original_.range, diagonal = box_of(surface.points).diagonal();
-    const double weight = as_published(options_) || !(range > 0) ? 0 : field_weight_of(report_) * diagonal / range;
-    const double lambda = as_published(options_) ? options_.lambda : Options().lambda;  // of a constant field
-    DecimateOptions options{sigma, lambda, options_.clean_edges, options_.max_deviation * diagonal};
-    for (std::size_t k = 0; k < surface.fields; k++)
-      options.field_weight[k] = weight * original_.view.scales.weighted[k];
-    const Prepared::Decimated decimated = prepared_.decimate(options, input_.index_base, job_, surface_);
-    report_.cleaned_edges = decimated.cleaned_edges;
-    topology_ = SurfaceTopology(job_.memory);
-    find_topology(surface_.points, surface_.triangles, job_, topology_);
-    describe_simplified_boundary(topology_, report_);
-    report_.reused_triangles = decimated.reused ? report_.boundary_triangles_out : 0;
-  }
-
-  /// Neither needs the other.
-  void decimate_and_sample() {
-    Beside sampling(job_, [this] { select(); });
-    decimate(budget_.sigma);
-    sample_by([&] { sampling.finish(); });
-  }
-
-  void cull() {
-    const StageTimer timer(Stage::cull, job_, report_);
-    const double diagonal = box_of(surface_.points).diagonal();
-    const double least = as_published(options_) ? options_.min_distance * diagonal : 0;
-    samples_ = selected_;
-    const Span<std::uint8_t> known = prepared_.verdicts(least, options_.boundary_leaf, job_.memory);
-    const CullReport culled = cull_samples(original_.view.points, surface_, topology_, least, options_.boundary_leaf,
-                                           job_, samples_, original_.flags, known);
-    report_.samples_outside = culled.outside;
-    report_.samples_too_near = culled.too_near;
-    report_.reused_samples = culled.known;
-  }
-
-  void remesh(Worker &worker) {
-    const StageTimer timer(Stage::remesh, job_, report_);
-    Array<Vec3> sample_points(&job_.memory);
-    sample_points.reserve(samples_.size());
-    for (std::int32_t v : samples_) sample_points.push_back(original_.view.points[std::size_t(v)]);
-    const auto meanwhile = [this] { measure_deviation(); };
-    tetlod::remesh(surface_, sample_points, worker, job_, remeshed_, usual_points_at_once, meanwhile, ladder_);
-    describe_remeshing(remeshed_.report, samples_.size(), report_);
-  }
-
-  void measure_deviation() {
-    const double deviation = prepared_.deviation(tree(), surface_, samples_for(options_.max_deviation), job_);
-    report_.max_deviation = deviation / original_.box.diagonal();
-  }
-
-  void reconstruct_field() {
-    const StageTimer timer(Stage::values, job_, report_);
-    tetlod::reconstruct_field(original_.view, boundary_, {surface_, samples_, remeshed_}, options_.tet_leaf, job_,
-                              mesh_, origin_);
-  }
-
   void carry() {
     const StageTimer timer(Stage::values, job_, report_);
     tree_.reset();  // the memory is wanted
@@ -372,19 +231,9 @@ class Pipeline : private Beginning {
     split_fields(input_, job_, result_);
   }
 
-  TetMesh &mesh_;
   std::int64_t stuck_at_ = 0;  // tets, where no edge was left to collapse; 0: the size was reached so far
   double score_ = 0;           // of the last refinement
-  Ladder ladder_ = Ladder::whole;
-  std::string failure_;  // of the last remeshing, or, without one, of the first collapses
-  std::optional<TreeOnDemand> tree_;
-  Surface surface_{job_.memory};               // the simplified boundary
-  SurfaceTopology topology_{job_.memory};      // of the simplified boundary
-  Array<std::int32_t> samples_{&job_.memory};  // after culling
-  RemeshResult remeshed_{job_.memory};
-  KeptVertices kept_{original_.flags, job_.memory};
   Array<std::int32_t> beyond_{&job_.memory};  // the bound: original vertices, after the last refinement
-  Array<std::int32_t> origin_{&job_.memory};  // of each point of mesh_, the original vertex that it is, or -1
 };
 
 }  // namespace
