@@ -138,13 +138,13 @@ CoarseSolid decimate_with_care(const OriginalSolid &original, SolidOptions optio
 /// size.
 bool went_astray(const CoarseSolid &coarse, const SolidOptions &options, double far) {
   const bool is_last = coarse.wrong.empty() || options.may_relax, has_limit = options.max_deviation > 0;
-  return coarse.is_sound && is_last && !has_limit && options.enough == 0 && coarse.deviation > far;
+  return coarse.is_sound && is_last && !has_limit && coarse.deviation > far;
 }
 
-/// With no more tets, but for what the largest errors would get at least.
+/// With hardly more tets: of a size no more than the largest errors would get at least.
 bool is_nearer(const CoarseSolid &a, const CoarseSolid &b, std::int64_t size) {
-  const auto most = std::max(std::int64_t(b.mesh.tets.size()), size + size * 3 / 100);
-  return a.is_sound && std::int64_t(a.mesh.tets.size()) <= most && a.deviation < b.deviation;
+  const auto least = std::max(size, std::int64_t(b.mesh.tets.size()));
+  return a.is_sound && std::int64_t(a.mesh.tets.size()) <= least + least * 3 / 100 && a.deviation < b.deviation;
 }
 
 }  // namespace
@@ -167,8 +167,10 @@ CoarseSolid decimate_solid_and_check(const OriginalSolid &original, SolidOptions
                      .c_str());
     options.max_deviation = limit * diagonal;
     CoarseSolid nearer = decimate_with_care(original, options, lowered, history, job);
+    if (!is_nearer(nearer, coarse, options.tets)) continue;
     nearer.reused = coarse.reused;
-    if (is_nearer(nearer, coarse, options.tets)) return nearer;
+    if (coarse.wrong.empty()) nearer.wrong.clear();  // the size serves as well
+    return nearer;
   }
   return coarse;
 }
