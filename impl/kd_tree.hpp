@@ -22,22 +22,28 @@ class KdTree {
   /// Splits at the median of the boxes' centres along the longest extent, until at most `leaf` items are left. What has
   /// an empty box is in no answer.
   void build(Array<Box> &&boxes, std::int64_t leaf, Job &job, double fraction = 0) {
-    boxes_ = std::move(boxes);
-    leaf_of_.assign(boxes_.size(), -1);
+    const Array<Box> of_items = std::move(boxes);
+    leaf_of_.assign(of_items.size(), -1);
     leaf_ = std::int32_t(std::max<std::int64_t>(leaf, 1));
     Array<Entry> entries(&job.memory);
-    entries.reserve(boxes_.size());
-    for (std::size_t i = 0; i < boxes_.size(); i++)
-      if (boxes_[i].low.x <= boxes_[i].high.x) entries.push_back({boxes_[i].low + boxes_[i].high, std::int32_t(i)});
+    entries.reserve(of_items.size());
+    for (std::size_t i = 0; i < of_items.size(); i++)
+      if (of_items[i].low.x <= of_items[i].high.x)
+        entries.push_back({of_items[i].low + of_items[i].high, std::int32_t(i)});
     items_.resize(entries.size());
+    boxes_.resize(entries.size());
     nodes_.clear();
     if (entries.empty()) return;
     nodes_.resize(std::size_t(nodes_below(std::int32_t(entries.size())).first));
-    split({entries.data(), entries.size()}, 0, 0, -1, job, fraction);
+    split(of_items, {entries.data(), entries.size()}, 0, 0, -1, job, fraction);
   }
 
   /// Anew, of what is left in it.
-  void rebuild(Job &job) { build(Array<Box>(std::move(boxes_)), leaf_, job, 0.5); }
+  void rebuild(Job &job) {
+    Array<Box> of_items(leaf_of_.size(), Box(), boxes_.get_allocator());
+    for (std::size_t i = 0; i < boxes_.size(); i++) of_items[std::size_t(items_[i])] = boxes_[i];
+    build(std::move(of_items), leaf_, job, 0.5);
+  }
 
   bool empty() const { return nodes_.empty(); }
   const Box &box() const { return nodes_[0].box; }
@@ -57,10 +63,8 @@ class KdTree {
         stack[top++] = self + 1;
         continue;
       }
-      for (std::int32_t i = node.begin; i < node.end; i++) {
-        const std::int32_t item = items_[std::size_t(i)];
-        if (overlap(boxes_[std::size_t(item)], box) && visit(item)) return true;
-      }
+      for (std::int32_t i = node.begin; i < node.end; i++)
+        if (overlap(boxes_[std::size_t(i)], box) && visit(items_[std::size_t(i)])) return true;
     }
     return false;
   }
@@ -80,24 +84,19 @@ class KdTree {
     };
     if (!nodes_.empty()) push(0, distance2(nodes_[0].box, p));
     while (top) {
-      const auto [self, waiting2] = stack[--top];
+      auto [self, waiting2] = stack[--top];
+      while (reaches(waiting2, best) && nodes_[std::size_t(self)].right) {
+        std::int32_t other = nodes_[std::size_t(self)].right;
+        double other2 = distance2(nodes_[std::size_t(other)].box, p);
+        self++, waiting2 = distance2(nodes_[std::size_t(self)].box, p);
+        if (other2 <= waiting2) std::swap(self, other), std::swap(waiting2, other2);
+        push(other, other2);
+      }
       if (!reaches(waiting2, best)) continue;
       const Node &node = nodes_[std::size_t(self)];
-      if (node.right) {
-        const double left = distance2(nodes_[std::size_t(self + 1)].box, p);
-        const double right = distance2(nodes_[std::size_t(node.right)].box, p);
-        if (left < right) {
-          push(node.right, right);
-          push(self + 1, left);
-        } else {
-          push(self + 1, left);
-          push(node.right, right);
-        }
-        continue;
-      }
       for (std::int32_t i = node.begin; i < node.end; i++) {
+        if (!reaches(distance2(boxes_[std::size_t(i)], p), best)) continue;
         const std::int32_t item = items_[std::size_t(i)];
-        if (!reaches(distance2(boxes_[std::size_t(item)], p), best)) continue;
         const double d = distance2_to(item);
         if (d < best || (d == best && (found < 0 || item < found))) {
           best = d;
@@ -110,7 +109,9 @@ class KdTree {
 
   /// Gives an item another box (an empty one removes it from every answer) and mends the boxes above it.
   void refit(std::int32_t item, const Box &box) {
-    boxes_[std::size_t(item)] = box;
+    const Node &leaf = nodes_[std::size_t(leaf_of_[std::size_t(item)])];
+    const auto at = std::find(items_.begin() + leaf.begin, items_.begin() + leaf.end, item);
+    boxes_[std::size_t(at - items_.begin())] = box;
     for (std::int32_t self = leaf_of_[std::size_t(item)]; self >= 0; self = nodes_[std::size_t(self)].parent) {
       const Box mended = box_below(self);
       Box &old = nodes_[std::size_t(self)].box;
@@ -141,7 +142,7 @@ class KdTree {
       box.add(nodes_[std::size_t(self + 1)].box);
       box.add(nodes_[std::size_t(node.right)].box);
     } else {
-      for (std::int32_t i = node.begin; i < node.end; i++) box.add(boxes_[std::size_t(items_[std::size_t(i)])]);
+      for (std::int32_t i = node.begin; i < node.end; i++) box.add(boxes_[std::size_t(i)]);
     }
     return box;
   }
@@ -160,8 +161,8 @@ class KdTree {
   }
 
   /// Those from `begin` on become the node `self`, and what is below it.
-  void split(Span<Entry> entries, std::int32_t begin, std::int32_t self, std::int32_t parent, Job &job,
-             double fraction) {
+  void split(const Array<Box> &of_items, Span<Entry> entries, std::int32_t begin, std::int32_t self,
+             std::int32_t parent, Job &job, double fraction) {
     constexpr std::size_t few = 1024, many = 8192;
     if (entries.size() > few) job.poll(fraction);
     const auto size = std::int32_t(entries.size());
@@ -169,8 +170,10 @@ class KdTree {
     node = {Box(), begin, begin + size, 0, parent};
     if (size <= leaf_) {
       for (std::int32_t i = 0; i < size; i++) {
-        items_[std::size_t(begin + i)] = entries[std::size_t(i)].item;
-        leaf_of_[std::size_t(entries[std::size_t(i)].item)] = self;
+        const std::int32_t item = entries[std::size_t(i)].item;
+        items_[std::size_t(begin + i)] = item;
+        boxes_[std::size_t(begin + i)] = of_items[std::size_t(item)];
+        leaf_of_[std::size_t(item)] = self;
       }
     } else {
       const std::int32_t half = size / 2;
@@ -184,9 +187,10 @@ class KdTree {
       node.right = self + 1 + nodes_below(half).first;
       const auto split_half = [&](std::size_t right, std::size_t) {
         if (right)
-          split({entries.data() + half, std::size_t(size - half)}, begin + half, node.right, self, job, fraction);
+          split(of_items, {entries.data() + half, std::size_t(size - half)}, begin + half, node.right, self, job,
+                fraction);
         else
-          split({entries.data(), std::size_t(half)}, begin, self + 1, self, job, fraction);
+          split(of_items, {entries.data(), std::size_t(half)}, begin, self + 1, self, job, fraction);
       };
       if (entries.size() > many) {
         job.parallel.for_blocks(2, 1, split_half);
@@ -198,8 +202,8 @@ class KdTree {
     node.box = box_below(self);
   }
 
-  Array<Box> boxes_;
-  Array<std::int32_t> items_;
+  Array<Box> boxes_;           // of items_
+  Array<std::int32_t> items_;  // leaf by leaf
   Array<Node> nodes_;
   Array<std::int32_t> leaf_of_;
   std::int32_t leaf_ = 1;
