@@ -138,7 +138,7 @@ CoarseSolid decimate_with_care(const OriginalSolid &original, SolidOptions optio
 /// size.
 bool went_astray(const CoarseSolid &coarse, const SolidOptions &options, double far) {
   const bool is_last = coarse.wrong.empty() || options.may_relax, has_limit = options.max_deviation > 0;
-  return coarse.is_sound && is_last && !has_limit && coarse.deviation > far;
+  return coarse.is_sound && is_last && !has_limit && options.enough == 0 && coarse.deviation > far;
 }
 
 /// With hardly more tets: of a size no more than the largest errors would get at least.

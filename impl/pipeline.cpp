@@ -60,6 +60,7 @@ class Pipeline : private Remeshing {
       const bool collapsed = coarsen(worker);
       refine(collapsed);
       if (collapsed || (report_.max_deviation > far_off && options_.clean_edges == 0)) weigh_planes_otherwise();
+      if (collapsed && beyond_.empty()) hold_nearer();
       if (beyond_.empty()) return !has_grown() || is_whole(budget_, options_, report_);
       if (!collapsed || kept_.restorations() == most_restorations) return false;
       kept_.restore(beyond_, original_.view.points.size());
@@ -120,9 +121,30 @@ class Pipeline : private Remeshing {
     report_ = best.report;
   }
 
+  /// A bound alone, that is held: where the boundary is far off, it comes nearer if that takes hardly more tets.
+  void hold_nearer() {
+    if (budget_.enough == 0 || options_.max_deviation > 0 || report_.max_deviation <= 2 * far_off) return;
+    Attempt far{std::move(mesh_), report_, score_};
+    const Budget budget = budget_;
+    SolidOptions options = collapse_options();
+    options.max_deviation = far_off * original_.box.diagonal();
+    if (collapse_again(options)) refine(true);
+    const bool is_small = double(mesh_.tets.size()) <= most_excess * double(far.mesh.tets.size());
+    if (!mesh_.tets.empty() && beyond_.empty() && is_small && report_.max_deviation < far.report.max_deviation) return;
+    mesh_ = std::move(far.mesh);
+    far.report.seconds = report_.seconds;
+    report_ = far.report;
+    budget_ = budget;
+    beyond_.clear();
+  }
+
   bool collapse_otherwise(double planes) {
     SolidOptions options = collapse_options();
     options.planes = planes;
+    return collapse_again(options);
+  }
+
+  bool collapse_again(const SolidOptions &options) {
     SolidHistory none(job_.memory);
     CoarseSolid coarse = collapse(options, none);
     const bool is_of_the_size = coarse.wrong.empty();
