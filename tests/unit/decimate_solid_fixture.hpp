@@ -23,20 +23,6 @@ inline Mesh flat_body() {
   return flat;
 }
 
-/// A slab with slits in it, each one cell wide and next to nothing high.
-inline Mesh slab_with_slits() {
-  constexpr int n = 12, last = n - 2;
-  Mesh slab = kuhn_solid({n, n, 8}, [](const Cell &c) {
-    const bool is_within = c[0] >= 2 && c[0] < last && c[1] >= 2 && c[1] < last;
-    return !(c[2] == 3 && is_within && c[1] % 2 == 1);
-  });
-  transform(slab, [](const Vec3 &p) {
-    const double above = std::min(std::max(p.z - 3, 0.0), 1.0);
-    return Vec3(p.x / n, p.y / n, 0.1 * (p.z - 0.98 * above));
-  });
-  return slab;
-}
-
 class DecimateSolid : public testing::Test {
  protected:
   Host host;

@@ -50,6 +50,19 @@ Mesh kuhn_cube(int n) {
   return mesh;
 }
 
+Mesh slab_with_slits(int n, int layers) {
+  const int middle = layers / 2;
+  Mesh slab = kuhn_solid({n, n, layers}, [&](const Cell &c) {
+    const bool is_within = c[0] >= 1 && c[0] < n - 1 && c[1] >= 1 && c[1] < n - 1;
+    return !(c[2] == middle && is_within && c[1] % 2 == 1);
+  });
+  transform(slab, [&](const Vec3 &p) {
+    const double above = std::min(std::max(p.z - middle, 0.0), 1.0);
+    return Vec3(p.x / n, p.y / n, 0.1 * (p.z - 0.98 * above));
+  });
+  return slab;
+}
+
 Mesh random_solid(int n, double probability, unsigned seed) {
   std::mt19937_64 random(seed);
   std::bernoulli_distribution is_solid(probability);

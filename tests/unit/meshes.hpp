@@ -43,6 +43,9 @@ Mesh kuhn_solid(const Cell &cells, const std::function<bool(const Cell &)> &soli
 /// The cube [0, 1]^3 in n^3 cells.
 Mesh kuhn_cube(int n);
 
+/// A slab of n x n x layers cells with slits in its middle, each one cell wide and next to nothing high.
+Mesh slab_with_slits(int n, int layers);
+
 /// n^3 cells, each solid with the given probability, the lowest always: touches itself at edges and vertices, has
 /// tunnels, cavities and several components.
 Mesh random_solid(int n, double probability, unsigned seed);
