@@ -25,10 +25,10 @@ struct CoarseSolid {
 /// decimate_solid, with care where the boundary else comes to cross itself, which it seldom does: looking for that in
 /// every collapse takes longer. Then lower_deviation to so many tets at most, or, with lowered = 0 and no limit to the
 /// deviation, with no more and of what is far off alone, where that leaves the mesh sound. options.touching is found
-/// here. The sound outcome of fewest tets, else the last; where its boundary is twice as far off as far_off, and it is
-/// of the size or collapses may relax, one within a limit to that with hardly more tets, if there is one. What may be
-/// wrong: a tet is not positive, tets overlap, the boundary crosses itself or has another topology, solids are nested,
-/// or the size is missed by more than 1 %.
+/// here. The sound outcome of fewest tets, else the last; of a given size, where the boundary is more than twice
+/// far_off away and collapses were not stuck, or could relax, one within that with hardly more tets, if there is one.
+/// What may be wrong: a tet is not positive, tets overlap, the boundary crosses itself or has another topology, solids
+/// are nested, or the size is missed by more than 1 %.
 CoarseSolid decimate_solid_and_check(const OriginalSolid &original, SolidOptions options, std::int64_t lowered,
                                      SolidHistory &history, Job &job);
 
