@@ -67,6 +67,18 @@ TEST(EstimateMemory, KnowsSmallMeshes) {
     }
 }
 
+/// Where all tets are kept nothing is refined, unless boundary edges are cleaned, which leads to TetGen.
+TEST(EstimateMemory, KnowsWhatIsDoneWhereAllTetsAreKept) {
+  for (double clean : {0.0, 1e-7}) {
+    const Cube cube(12);
+    const Context context = make_context();
+    submit(context.get(), cube);
+    ASSERT_EQ(tetlod_set_real(context.get(), TETLOD_OPT_TARGET_RATIO, 1), TETLOD_OK);
+    ASSERT_EQ(tetlod_set_real(context.get(), TETLOD_OPT_CLEAN_EDGES, clean), TETLOD_OK);
+    expect_estimate(context.get(), "clean-edges " + std::to_string(clean));
+  }
+}
+
 /// The lowest layers of a cube of n: thin solids have many triangles a tet.
 Cube plate(int n, int layers) {
   Cube cube(n);
