@@ -134,17 +134,16 @@ CoarseSolid decimate_with_care(const OriginalSolid &original, SolidOptions optio
   return best;
 }
 
-/// Where it slides within itself, nothing holds the end of what is thin. Unless something follows that may lead to the
-/// size.
+/// The mesh is the last one of collapses, and its boundary farther off than `far`: ends of thin parts slide within
+/// their own planes, where nothing holds them.
 bool went_astray(const CoarseSolid &coarse, const SolidOptions &options, double far) {
   const bool is_last = coarse.wrong.empty() || options.may_relax, has_limit = options.max_deviation > 0;
   return coarse.is_sound && is_last && !has_limit && options.enough == 0 && coarse.deviation > far;
 }
 
-/// With hardly more tets: of a size no more than the largest errors would get at least.
 bool is_nearer(const CoarseSolid &a, const CoarseSolid &b, std::int64_t size) {
-  const auto least = std::max(size, std::int64_t(b.mesh.tets.size()));
-  return a.is_sound && std::int64_t(a.mesh.tets.size()) <= least + least * 3 / 100 && a.deviation < b.deviation;
+  const double most = hardly_more * std::max(double(size), double(b.mesh.tets.size()));
+  return a.is_sound && double(a.mesh.tets.size()) <= most && a.deviation < b.deviation;
 }
 
 }  // namespace

@@ -8,6 +8,8 @@ namespace tetlod {
 
 /// Of the diagonal: for any use a boundary that is so far off stands out, or lacks a tip.
 constexpr double far_off = 0.02;
+/// Times the tets, for a boundary that is nearer: of a size no more than the largest errors would get at least.
+constexpr double hardly_more = 1.03;
 
 struct CoarseSolid {
   explicit CoarseSolid(Memory &memory) : mesh(memory), origin(&memory), surface(memory), topology(memory) {}

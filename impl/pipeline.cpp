@@ -116,9 +116,14 @@ class Pipeline : private Remeshing {
       refine(true);
       if (score_ < best.score) best = {std::move(mesh_), report_, score_};
     }
-    mesh_ = std::move(best.mesh);
-    best.report.seconds = report_.seconds;
-    report_ = best.report;
+    keep(std::move(best));
+  }
+
+  /// Not the last one. All have taken their time.
+  void keep(Attempt &&attempt) {
+    mesh_ = std::move(attempt.mesh);
+    attempt.report.seconds = report_.seconds;
+    report_ = attempt.report;
   }
 
   /// A bound alone, that is held: where the boundary is far off, it comes nearer if that takes hardly more tets.
@@ -129,11 +134,9 @@ class Pipeline : private Remeshing {
     SolidOptions options = collapse_options();
     options.max_deviation = far_off * original_.box.diagonal();
     if (collapse_again(options)) refine(true);
-    const bool is_small = double(mesh_.tets.size()) <= most_excess * double(far.mesh.tets.size());
+    const bool is_small = double(mesh_.tets.size()) <= hardly_more * double(far.mesh.tets.size());
     if (!mesh_.tets.empty() && beyond_.empty() && is_small && report_.max_deviation < far.report.max_deviation) return;
-    mesh_ = std::move(far.mesh);
-    far.report.seconds = report_.seconds;
-    report_ = far.report;
+    keep(std::move(far));
     budget_ = budget;
     beyond_.clear();
   }
