@@ -8,8 +8,7 @@
 #include "beside.hpp"
 #include "boundary_limits.hpp"
 #include "solid_blocks.hpp"
-#include "solid_costs.hpp"
-#include "solid_places.hpp"
+#include "solid_work.hpp"
 #include "state_keeper.hpp"
 #include "status.hpp"
 #include "surface_distance.hpp"
@@ -55,7 +54,7 @@ class SolidDecimator {
       rooms_.emplace_back(job.memory);
       works_.emplace_back(job.memory);
     }
-    if (!options.holds_bound) places_.relax(progress_.relaxed);
+    if (progress_.relaxed > 0) places_.relax(progress_.relaxed);
     if (options.hasty) progress_.far = SolidProgress::far_in_haste;
     if (options.max_deviation > 0)
       limits_.limit_deviation(original.surface, original.tree.get(job), options.max_deviation, job);
@@ -118,18 +117,6 @@ class SolidDecimator {
   /// The round of a vertex none of whose edges is admissible.
   static constexpr int stuck = -2;
 
-  /// What a block does in a round.
-  struct Work {
-    explicit Work(Memory &memory) : items(&memory), collapse(memory), edges(memory), samples(memory) {}
-    Array<std::int32_t> items;
-    SolidCollapse<m> collapse;
-    EdgeCosts edges;
-    SamplesOfStar samples;
-    std::int64_t most = 0, gone = 0;           ///< tets
-    std::size_t within_limit = 0, waited = 0;  ///< vertices, as far as is known
-    double cost = 0;
-  };
-
   /// It will be asked for, and the last collapses leave threads idle.
   bool tree_is_due() const {
     const std::size_t bytes = tree_.bytes_to_make();
@@ -159,13 +146,16 @@ class SolidDecimator {
   /// As below; infinite: nothing is admissible, however rules relax.
   double limit_of_round() {
     double limit = limit_by_costs();
-    while (limit == infinity && relax()) limit = limit_by_costs();
+    while (limit == infinity && relax()) {
+      progress_.end_removals(count_);
+      limit = limit_by_costs();
+    }
     return limit;
   }
 
   bool relax() {
-    const int most = options_.may_relax ? places_.most_of_all : places_.most_for_slivers;
-    if (options_.holds_bound || progress_.relaxed == most) return false;
+    const bool may_fold = options_.may_relax && !options_.holds_bound;
+    if (progress_.relaxed == (may_fold ? places_.most_of_all : places_.most_for_slivers)) return false;
     places_.relax(++progress_.relaxed);
     look_again();
     return true;
@@ -214,7 +204,7 @@ class SolidDecimator {
     const Array<std::size_t> order = longest_first();
     job_.parallel.for_blocks(order.size(), 1, [&](std::size_t i, std::size_t) {
       const std::size_t b = order[i];
-      Work &work = works_[b];
+      SolidWork<m> &work = works_[b];
       work.most = std::int64_t(std::ceil(share * double(work.items.size())));
       collapse_in_block(limit, work, rooms_[b]);
     });
@@ -238,8 +228,8 @@ class SolidDecimator {
     return items < few || limits_.guards_crossings() || progress_.most_waited ? 1 : SolidBlocks::most;
   }
 
-  void collapse_in_block(double limit, Work &work, CollapseRoom &room) {
-    for (std::size_t i = 0; i < work.items.size() && work.gone < work.most; i++) {
+  void collapse_in_block(double limit, SolidWork<m> &work, CollapseRoom &room) {
+    for (std::size_t i = 0; i < work.items.size() && work.done.gone < work.most; i++) {
       if (i % 64 == 0) job_.poll(0);
       mesh_.prefetch_after(i, work.items);
       if (find(work.items[i], limit, work)) make(work.collapse, work, room);
@@ -247,21 +237,21 @@ class SolidDecimator {
   }
 
   void take_over(std::size_t items) {
-    const std::int64_t before = count_;
-    std::size_t within_limit = 0, waited = 0;
-    for (Work &work : works_) {
+    RoundSums sums;
+    for (SolidWork<m> &work : works_) {
       if (!work.items.empty())  // with fewer tets to lose, the block would have stopped before
-        progress_.allow(double(before) - double(work.gone + 1) * double(items) / double(work.items.size()));
-      count_ -= work.gone;
-      progress_.cost += work.cost;
-      within_limit += work.within_limit;
-      waited += work.waited;
+        progress_.allow(double(count_) - double(work.done.gone + 1) * double(items) / double(work.items.size()));
+      sums.add(work.done);
+      work.done = {};
       work.items.clear();
-      work.gone = 0;
-      work.within_limit = work.waited = 0;
-      work.cost = 0;
     }
-    progress_.most_waited = waited * 8 > within_limit * 7;
+    count_ -= sums.gone;
+    progress_.cost += sums.cost;
+    progress_.most_waited = sums.most_waited();
+    // Else ever dearer edges would collapse instead of the cheapest, which are not admissible.
+    const bool is_for_slivers = progress_.relaxed < places_.most_for_slivers;
+    const bool is_time = is_for_slivers ? sums.many_were_slivers() : sums.hardly_any_collapsed();
+    if (is_time && !relax()) progress_.forks = true;
   }
 
   // ---- States
@@ -291,25 +281,28 @@ class SolidDecimator {
   // ---- A collapse
 
   /// The cheapest admissible one of an edge of v within the limit. A vertex moves once a round.
-  bool find(std::int32_t v, double limit, Work &work) {
+  bool find(std::int32_t v, double limit, SolidWork<m> &work) {
     if (!mesh_.has_vertex(v) || progress_.moved[std::size_t(v)] == progress_.round) return false;
     const bool waits_itself = waits(v), is_known = waits_itself || costs_.is_known(cheapest(v));
     if (!is_known) costs_.find_cheapest(v, work.edges);
     if (!(cheapest(v).cost <= limit)) return false;
-    work.within_limit++;
+    work.done.within_limit++;
     if (waits_itself || waits(cheapest(v).other)) {
-      work.waited++;
+      work.done.waited++;
       return false;
     }
+    work.collapse.met_sliver = false;
     if (is_admissible(v, cheapest(v), work.collapse)) return true;
     if (is_known) costs_.find_costs(v, work.edges);
-    return find_dearer(v, limit, work);
+    if (find_dearer(v, limit, work)) return true;
+    work.done.slivers += work.collapse.met_sliver;
+    return false;
   }
 
   bool waits(std::int32_t v) const { return !blocks_.is_inside(v); }
 
   /// The same among the edges that cost more than the cheapest, which is not admissible. work.edges: of v.
-  bool find_dearer(std::int32_t v, double limit, Work &work) {
+  bool find_dearer(std::int32_t v, double limit, SolidWork<m> &work) {
     Few<CheapestEdge, largest_cavity> dearer;
     const double tried = cheapest(v).cost;
     CheapestEdge later{infinity, 0, -1, stuck};
@@ -337,7 +330,7 @@ class SolidDecimator {
                                     : places_.find(v, cheapest.other, cheapest.t, collapse);
   }
 
-  void make(const SolidCollapse<m> &collapse, Work &work, CollapseRoom &room) {
+  void make(const SolidCollapse<m> &collapse, SolidWork<m> &work, CollapseRoom &room) {
     const std::int32_t v = collapse.edge.stays;
     if (collapse.of_boundary) {
       if (limits_.are_passed(collapse.star, work.samples)) {
@@ -348,8 +341,9 @@ class SolidDecimator {
     }
     mesh_.collapse(collapse.edge, collapse.place, room);
     if (progress_.follows()) progress_.into[std::size_t(collapse.edge.gone)] = v;
-    work.gone += std::int64_t(collapse.edge.edge_tets.size());
-    work.cost += cheapest(collapse.found_at).cost;
+    work.done.gone += std::int64_t(collapse.edge.edge_tets.size());
+    work.done.collapses++;
+    work.done.cost += cheapest(collapse.found_at).cost;
     progress_.moved[std::size_t(v)] = progress_.round;
     cheapest(v) = CheapestEdge();
     // What was not admissible around it may be so now.
@@ -371,7 +365,7 @@ class SolidDecimator {
   std::int64_t count_;  // of the tets that are left
   SolidBlocks blocks_;
   Array<CollapseRoom> rooms_;  // of each block
-  Array<Work> works_;
+  Array<SolidWork<m>> works_;
   BoundaryLimits limits_;
   Array<std::int32_t> left_;
 };

@@ -12,7 +12,8 @@ struct SolidCollapse {
   Vector<3 + m> place{};
   std::int32_t found_at = -1;  ///< the end whose cheapest edge it is
   bool of_boundary = false;
-  Star star;  ///< of the boundary
+  bool met_sliver = false;  ///< a place would have done, but for such a triangle
+  Star star;                ///< of the boundary
 };
 
 template <std::size_t m>
@@ -27,7 +28,7 @@ class SolidPlaces {
         volume_of_collapse_(volume_to_lose * mesh.measures.volume / double(boundary_vertices)),
         rules_(holds_bound ? of_bound : rules[0]) {}
 
-  /// Where nothing is admissible any more: how often rules may relax then, those of slivers alone and all.
+  /// Where little is admissible: how often rules may relax then, those of slivers alone and all.
   static constexpr int most_for_slivers = 2, most_of_all = 5;
   void relax(int times) { rules_ = rules[times]; }
 
@@ -60,11 +61,13 @@ class SolidPlaces {
   struct Rules {
     double kept_of_sliver;  ///< what slivers have to keep of their quality
     double kept_of_fold;    ///< and folds, how far they are open; 0: none may become sharp
+    bool at_ends;           ///< whether an end's place will do, where no better one is admissible
     bool may_turn;          ///< whether triangles may turn too far
   };
-  static constexpr Rules of_bound{1, 0, false};
-  static constexpr Rules rules[1 + most_of_all] = {{0.999, 0, false}, {0.7, 0, false},   {0.4, 0, false},
-                                                   {0.4, 0.7, false}, {0.4, 0.4, false}, {0.4, 0.4, true}};
+  static constexpr Rules of_bound{1, 0, false, false};
+  static constexpr Rules rules[1 + most_of_all] = {{0.999, 0, false, false}, {0.7, 0, false, false},
+                                                   {0.4, 0, false, false},   {0.4, 0.7, true, false},
+                                                   {0.4, 0.4, true, false},  {0.4, 0.4, true, true}};
   /// A best place further off than this part of the edge is none.
   static constexpr double longest_step = 0.5;
 
@@ -74,7 +77,8 @@ class SolidPlaces {
     const Place d = minus(gone, stays), best = along(stays, t, d);
     StepConstraint constraint;
     if (collapse.of_boundary) constraint = keeping_volume(mesh_, edge, point_of(best));
-    if (!mesh_.keeps_place(edge.stays, edge.gone)) {
+    const bool may_move = !mesh_.keeps_place(edge.stays, edge.gone);
+    if (may_move) {
       LocalQuadric<3 + m> sum = mesh_.quadric(edge.stays).moved(minus(best, stays));
       sum.add(mesh_.quadric(edge.gone).moved(minus(best, gone)));
       Place step;
@@ -82,7 +86,11 @@ class SolidPlaces {
           suits(along(best, 1, step), collapse))
         return true;
     }
-    return keeps_volume(constraint, {}) && suits(best, collapse);
+    const auto serves = [&](const Place &place) {
+      return keeps_volume(constraint, minus(place, best)) && suits(place, collapse);
+    };
+    return serves(best) ||
+           (may_move && rules_.at_ends && (serves(t < 0.5 ? stays : gone) || serves(t < 0.5 ? gone : stays)));
   }
 
   bool keeps_volume(const StepConstraint &constraint, const Place &step) const {
@@ -101,8 +109,12 @@ class SolidPlaces {
 
   bool suits_boundary(SolidCollapse<m> &collapse) const {
     Star &star = collapse.star;
-    return look_around_on_boundary(mesh_, collapse.edge, point_of(collapse.place), star) &&
-           (rules_.may_turn || !turns_too_far(star)) && !makes_fold(star) && !makes_sliver(star, rules_.kept_of_sliver);
+    if (!look_around_on_boundary(mesh_, collapse.edge, point_of(collapse.place), star) ||
+        (!rules_.may_turn && turns_too_far(star)) || makes_fold(star))
+      return false;
+    const bool is_sliver = makes_sliver(star, rules_.kept_of_sliver);
+    collapse.met_sliver |= is_sliver;
+    return !is_sliver;
   }
 
   bool makes_fold(const Star &star) const {

@@ -19,6 +19,7 @@ SolidProgress::SolidProgress(const SolidProgress &of, Memory &memory)
       first_near(of.first_near),
       most_waited(of.most_waited),
       relaxed(of.relaxed),
+      forks(of.forks),
       largest_target(of.largest_target),
       largest_size(of.largest_size),
       next_closing(of.next_closing),
@@ -29,10 +30,8 @@ SolidProgress::SolidProgress(const SolidProgress &of, Memory &memory)
       into(of.into, &memory) {}
 
 void SolidProgress::choose_way(std::int64_t count, std::int64_t tets) {
-  if (is_far(count, tets) && relaxed == 0)
-    last_far = count;
-  else if (removes())
-    first_near = count;
+  if (!removes()) return;
+  (is_far(count, tets) ? last_far : first_near) = count;
 }
 
 void SolidProgress::follow(Span<const std::int32_t> origin, std::size_t originals) {

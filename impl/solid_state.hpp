@@ -44,6 +44,7 @@ struct SolidProgress {
   /// Far from so many tets vertices are removed, near them, or where no more may go, edges collapse. From here on it is
   /// so with `count` tets.
   void choose_way(std::int64_t count, std::int64_t tets);
+  void end_removals(std::int64_t count) { first_near = removes() ? count : first_near; }
   static constexpr double usually_far = 3, far_in_haste = 1.5;  ///< times the tets
   /// Vertices, which costs are of.
   bool removes() const { return first_near == 0; }
@@ -55,7 +56,8 @@ struct SolidProgress {
   std::int64_t last_far = std::numeric_limits<std::int64_t>::max();        ///< tets, when that was chosen last
   std::int64_t first_near = 0;                                             ///< tets, when it was not for the first time
   bool most_waited = false;                                                ///< in the round before
-  int relaxed = 0;                                                         ///< rules, where nothing was admissible
+  int relaxed = 0;                                                         ///< rules, where little was admissible
+  bool forks = false;                                                      ///< they would have, in other runs
   std::int64_t largest_target = std::numeric_limits<std::int64_t>::max();  ///< up to it the rounds so far are the same
   std::int64_t largest_size = std::numeric_limits<std::int64_t>::max();    ///< likewise, as gaps were left
   std::int64_t next_closing = 0;                                           ///< with fewer tets, gaps are closed

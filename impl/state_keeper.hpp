@@ -25,7 +25,8 @@ class StateKeeper {
   /// take the place of others. count: of the tets that are left.
   void keep(SolidRemains<m> &remains, const SolidProgress &progress, std::int64_t count) {
     const bool of_this_target = progress.largest_target < options_.tets, follows = progress.follows();
-    if (!states_ || (of_this_target && !follows) || progress.relaxed > SolidPlaces<m>::most_for_slivers) return;
+    const bool is_way_of_all = progress.relaxed <= SolidPlaces<m>::most_for_slivers && !progress.forks;
+    if (!states_ || (of_this_target && !follows) || !is_way_of_all) return;
     const auto last_is_no_finer = [&] {
       return !states_->empty() && states_->back().remains.tets.size() <= remains.tets.size();
     };

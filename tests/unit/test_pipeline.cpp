@@ -4,7 +4,6 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "decimate_solid_and_check.hpp"
 #include "deviation.hpp"
 #include "remesh_attempts.hpp"
 #include "whole_run.hpp"
@@ -266,22 +265,6 @@ TEST_F(WholeRun, TheReportTellsTheLargestDeviation) {
         EXPECT_NEAR(report().max_deviation, deviation, 1e-12) << n << ' ' << bound;
       }
   }
-}
-
-/// Collapses lead far off there, as nothing else holds the end of a slit, which slides along the others' planes.
-TEST_F(WholeRun, SlitsKeepTheirLength) {
-  Mesh slab = slab_with_slits(12, 4);
-  set_scalars(slab, [](const Vec3 &p) { return std::sin(6 * p.x) * std::cos(5 * p.y) + p.z * p.z; });
-  for (const auto &[ratio, bound] : {std::pair(0.3, 0.0), {0.2, 0.0}, {0.0, 0.1}, {0.0, 0.02}})
-    for (const int effort : {effort_fast, effort_accurate}) {
-      options.target_ratio = ratio;
-      options.max_error = bound;
-      options.effort = effort;
-      simplify(slab);
-      expect_sound(slab, 0.01);
-      EXPECT_LT(report().max_deviation, 2 * far_off) << ratio << ' ' << bound << ' ' << effort;
-      EXPECT_TRUE(bound == 0 || report().max_error <= bound);
-    }
 }
 
 }  // namespace

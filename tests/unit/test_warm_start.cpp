@@ -103,6 +103,19 @@ TEST_F(WarmStart, KeepsNoStateOfSharpFolds) {
     EXPECT_LE(state.progress.relaxed, SolidPlaces<1>::most_for_slivers);
 }
 
+/// Where rules may relax further the way is another one from there on.
+TEST_F(WarmStart, KeepsNoStateThatIsNotOnTheWayOfAll) {
+  Mesh slab = slab_with_slits(30, 8);
+  transform(slab, [](const Vec3 &p) { return Vec3(p.x, p.y, p.z - 0.9 * std::min(std::max(p.z - 0.4, 0.0), 0.002)); });
+  set_scalars(slab, [](const Vec3 &p) { return std::sin(7 * p.x) * std::cos(5 * p.y) + 0.5 * std::sin(6 * p.z); });
+  start_with(slab);
+  SolidHistory history(host.memory);
+  CoarseSolid strict(host.memory);
+  EXPECT_FALSE(decimate(0.02, host, history, strict));
+  ASSERT_FALSE(history.states<1>(host.memory).empty());
+  for (const SolidState<1> &state : history.states<1>(host.memory)) EXPECT_FALSE(state.progress.forks);
+}
+
 TEST_F(WarmStart, BeginsWhereASlowFrontLeftTheSolid) {
   Host one;
   CoarseSolid with_one_thread(one.memory);

@@ -1,0 +1,67 @@
+// Bodies with slits: thin parts that nothing but the distance holds, and slivers at their rims.
+#include "decimate_solid_and_check.hpp"
+#include "whole_run.hpp"
+
+namespace tetlod {
+namespace {
+
+using namespace test;
+
+class Slits : public WholeRun {
+ protected:
+  void start_with(int n, int layers) {
+    slab = slab_with_slits(n, layers);
+    set_scalars(slab, [](const Vec3 &p) { return std::sin(7 * p.x) * std::cos(5 * p.y) + 0.5 * std::sin(6 * p.z); });
+  }
+
+  double rms() { return measure_error(input_of(slab), options, mesh(), 1, host.job).rms; }
+  std::size_t tets() const { return slab.tets.size(); }
+
+  Mesh slab;
+};
+
+/// Collapses lead far off there, as nothing else holds the end of a slit, which slides along the others' planes.
+TEST_F(Slits, KeepTheirLength) {
+  start_with(12, 4);
+  set_scalars(slab, [](const Vec3 &p) { return std::sin(6 * p.x) * std::cos(5 * p.y) + p.z * p.z; });
+  for (const auto &[ratio, bound] : {std::pair(0.3, 0.0), {0.2, 0.0}, {0.0, 0.1}, {0.0, 0.02}})
+    for (const int effort : {effort_fast, effort_accurate}) {
+      options.target_ratio = ratio;
+      options.max_error = bound;
+      options.effort = effort;
+      simplify(slab);
+      expect_sound(slab, 0.01);
+      EXPECT_LT(report().max_deviation, 2 * far_off) << ratio << ' ' << bound << ' ' << effort;
+      EXPECT_TRUE(bound == 0 || report().max_error <= bound);
+    }
+}
+
+/// What is cheapest is not admissible, for slivers: passed over, it would leave ever dearer edges to collapse.
+TEST_F(Slits, SliversGiveWayBeforeDearEdgesDo) {
+  start_with(20, 8);
+  options.effort = effort_fast;
+  options.target_ratio = 0.1;
+  simplify(slab);
+  expect_sound(slab, 0.01);
+  EXPECT_LT(rms(), 0.035);
+  options.target_ratio = 0;
+  options.max_error = 0.03;
+  simplify(slab);
+  expect_sound(slab, 0.01);
+  EXPECT_LE(report().max_error, options.max_error);
+  EXPECT_LT(double(mesh().tets.size()), 0.18 * double(tets()));
+}
+
+/// Between their sides the best place of an edge often turns a tet over, where an end's place would not.
+TEST_F(Slits, EndsServeWhereNoBetterPlaceDoes) {
+  start_with(30, 8);
+  options.effort = effort_fast;
+  options.target_ratio = 0.05;
+  options.remesh = false;
+  simplify(slab);
+  expect_sound(slab, 0.01);
+  EXPECT_LT(double(mesh().tets.size()), 1.03 * options.target_ratio * double(tets()));
+}
+
+}  // namespace
+}  // namespace tetlod
