@@ -44,6 +44,7 @@ struct SolidProgress {
   /// Far from so many tets vertices are removed, near them, or where no more may go, edges collapse. From here on it is
   /// so with `count` tets.
   void choose_way(std::int64_t count, std::int64_t tets);
+  /// No more vertices may go.
   void end_removals(std::int64_t count) { first_near = removes() ? count : first_near; }
   static constexpr double usually_far = 3, far_in_haste = 1.5;  ///< times the tets
   /// Vertices, which costs are of.

@@ -247,7 +247,9 @@ TEST_F(Filter, FlaggedPointsSurvive) {
   filter->SetRho(1);
   filter->SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "flags");
   double middle[3] = {0.5, 0.5, 0.5}, found[3];
-  updated()->GetPoint(filter->GetOutput()->FindPoint(middle), found);
+  const vtkIdType nearest = updated()->FindPoint(middle);
+  ASSERT_GE(nearest, 0) << "no points";
+  filter->GetOutput()->GetPoint(nearest, found);
   for (const double x : found) EXPECT_DOUBLE_EQ(x, 0.5);
   filter->SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "heat");
   expect_failure("heat", TETLOD_ERR_ARGUMENT);
