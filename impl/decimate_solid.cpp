@@ -146,11 +146,16 @@ class SolidDecimator {
   /// As below; infinite: nothing is admissible, however rules relax.
   double limit_of_round() {
     double limit = limit_by_costs();
-    while (limit == infinity && relax()) {
-      progress_.end_removals(count_);
-      limit = limit_by_costs();
-    }
+    while (limit == infinity && goes_on()) limit = limit_by_costs();
     return limit;
+  }
+
+  /// Where nothing is admissible rules relax, and edges collapse where vertices were removed.
+  bool goes_on() {
+    const bool removed = progress_.removes();
+    progress_.end_removals(count_);
+    if (removed) look_again();
+    return relax() || removed;
   }
 
   bool relax() {
