@@ -150,17 +150,21 @@ class SolidDecimator {
     return limit;
   }
 
-  /// Where nothing is admissible rules relax, and edges collapse where vertices were removed.
+  /// Where no vertex may be removed edges collapse, and where none may rules relax.
   bool goes_on() {
-    const bool removed = progress_.removes();
+    if (!progress_.removes()) return relax();
     progress_.end_removals(count_);
-    if (removed) look_again();
-    return relax() || removed;
+    look_again();
+    return true;
   }
 
+  /// False: they may not. In runs without a bound they might, so that from here on those go another way.
   bool relax() {
     const bool may_fold = options_.may_relax && !options_.holds_bound;
-    if (progress_.relaxed == (may_fold ? places_.most_of_all : places_.most_for_slivers)) return false;
+    if (progress_.relaxed == (may_fold ? places_.most_of_all : places_.most_for_slivers)) {
+      progress_.forks = !options_.holds_bound;
+      return false;
+    }
     places_.relax(++progress_.relaxed);
     look_again();
     return true;
@@ -253,10 +257,9 @@ class SolidDecimator {
     count_ -= sums.gone;
     progress_.cost += sums.cost;
     progress_.most_waited = sums.most_waited();
-    // Else ever dearer edges would collapse instead of the cheapest, which are not admissible.
-    const bool is_for_slivers = progress_.relaxed < places_.most_for_slivers;
-    const bool is_time = is_for_slivers ? sums.many_were_slivers() : sums.hardly_any_collapsed();
-    if (is_time && !relax()) progress_.forks = true;
+    // Where rules refuse many, ever dearer edges would collapse instead of the cheapest ones.
+    const std::size_t refused = progress_.relaxed < places_.most_for_slivers ? sums.slivers : sums.refused;
+    if (sums.outnumber_collapses(refused)) relax();
   }
 
   // ---- States
@@ -299,9 +302,7 @@ class SolidDecimator {
     work.collapse.met_sliver = false;
     if (is_admissible(v, cheapest(v), work.collapse)) return true;
     if (is_known) costs_.find_costs(v, work.edges);
-    if (find_dearer(v, limit, work)) return true;
-    work.done.slivers += work.collapse.met_sliver;
-    return false;
+    return find_dearer(v, limit, work);
   }
 
   bool waits(std::int32_t v) const { return !blocks_.is_inside(v); }
@@ -327,6 +328,8 @@ class SolidDecimator {
       if (is_admissible(v, edge, work.collapse)) return true;
     }
     cheapest(v) = later;
+    work.done.refused++;
+    work.done.slivers += work.collapse.met_sliver;
     return false;
   }
 

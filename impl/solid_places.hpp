@@ -55,9 +55,9 @@ class SolidPlaces {
   /// What tets that are flat have to keep of their shape. In a graded mesh most are; nothing could go there without
   /// making some worse.
   static constexpr double kept_of_flat = 0.7;
-  /// Of the boundary. On walls that are stretched all triangles are slivers, as good as each other but for a little;
-  /// the rim of a flat body is sharper than any fold may get else, and its narrow faces turn when it gets still
-  /// flatter.
+  /// Of the boundary, most. On walls that are stretched all triangles are slivers, as good as each other but for a
+  /// little; the rim of a flat body is sharper than any fold may get else, and its narrow faces turn when it gets still
+  /// flatter; between the sides of a slit the best place of an edge is often beyond one.
   struct Rules {
     double kept_of_sliver;  ///< what slivers have to keep of their quality
     double kept_of_fold;    ///< and folds, how far they are open; 0: none may become sharp

@@ -45,7 +45,7 @@ struct SolidProgress {
   /// so with `count` tets.
   void choose_way(std::int64_t count, std::int64_t tets);
   /// No more vertices may go.
-  void end_removals(std::int64_t count) { first_near = removes() ? count : first_near; }
+  void end_removals(std::int64_t count) { first_near = count; }
   static constexpr double usually_far = 3, far_in_haste = 1.5;  ///< times the tets
   /// Vertices, which costs are of.
   bool removes() const { return first_near == 0; }
@@ -58,7 +58,7 @@ struct SolidProgress {
   std::int64_t first_near = 0;                                             ///< tets, when it was not for the first time
   bool most_waited = false;                                                ///< in the round before
   int relaxed = 0;                                                         ///< rules, where little was admissible
-  bool forks = false;                                                      ///< they would have, in other runs
+  bool forks = false;                                                      ///< they would have, if they might further
   std::int64_t largest_target = std::numeric_limits<std::int64_t>::max();  ///< up to it the rounds so far are the same
   std::int64_t largest_size = std::numeric_limits<std::int64_t>::max();    ///< likewise, as gaps were left
   std::int64_t next_closing = 0;                                           ///< with fewer tets, gaps are closed

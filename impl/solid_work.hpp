@@ -9,7 +9,7 @@ namespace tetlod {
 struct RoundSums {
   std::int64_t gone = 0;                     ///< tets
   std::size_t within_limit = 0, waited = 0;  ///< vertices, as far as is known
-  std::size_t slivers = 0;                   ///< vertices that would have gone, but for such a triangle
+  std::size_t refused = 0, slivers = 0;      ///< vertices, in all and for such a triangle alone
   std::size_t collapses = 0;
   double cost = 0;
 
@@ -17,16 +17,12 @@ struct RoundSums {
     gone += o.gone;
     within_limit += o.within_limit;
     waited += o.waited;
+    refused += o.refused;
     slivers += o.slivers;
     collapses += o.collapses;
     cost += o.cost;
   }
   bool most_waited() const { return waited * 8 > within_limit * 7; }
-  /// Of the vertices that were looked at.
-  bool hardly_any_collapsed() const { return outnumber_collapses(within_limit - waited - collapses); }
-  bool many_were_slivers() const { return outnumber_collapses(slivers); }
-
- private:
   bool outnumber_collapses(std::size_t vertices) const {
     constexpr std::size_t few = 100;  // they say nothing
     return vertices > collapses / 2 + few;

@@ -9,10 +9,11 @@ using namespace test;
 
 class Slits : public WholeRun {
  protected:
-  void start_with(int n, int layers) {
+  void start_with(int n, int layers, const Field &field = three_waves) {
     slab = slab_with_slits(n, layers);
-    set_scalars(slab, [](const Vec3 &p) { return std::sin(7 * p.x) * std::cos(5 * p.y) + 0.5 * std::sin(6 * p.z); });
+    set_scalars(slab, field);
   }
+  static double three_waves(const Vec3 &p) { return std::sin(7 * p.x) * std::cos(5 * p.y) + 0.5 * std::sin(6 * p.z); }
 
   double rms() { return measure_error(input_of(slab), options, mesh(), 1, host.job).rms; }
   std::size_t tets() const { return slab.tets.size(); }
@@ -22,8 +23,7 @@ class Slits : public WholeRun {
 
 /// Collapses lead far off there, as nothing else holds the end of a slit, which slides along the others' planes.
 TEST_F(Slits, KeepTheirLength) {
-  start_with(12, 4);
-  set_scalars(slab, [](const Vec3 &p) { return std::sin(6 * p.x) * std::cos(5 * p.y) + p.z * p.z; });
+  start_with(12, 4, [](const Vec3 &p) { return std::sin(6 * p.x) * std::cos(5 * p.y) + p.z * p.z; });
   for (const auto &[ratio, bound] : {std::pair(0.3, 0.0), {0.2, 0.0}, {0.0, 0.1}, {0.0, 0.02}})
     for (const int effort : {effort_fast, effort_accurate}) {
       options.target_ratio = ratio;
