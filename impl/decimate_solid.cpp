@@ -158,13 +158,9 @@ class SolidDecimator {
     return true;
   }
 
-  /// False: they may not. In runs without a bound they might, so that from here on those go another way.
   bool relax() {
     const bool may_fold = options_.may_relax && !options_.holds_bound;
-    if (progress_.relaxed == (may_fold ? places_.most_of_all : places_.most_for_slivers)) {
-      progress_.forks = !options_.holds_bound;
-      return false;
-    }
+    if (progress_.relaxed == (may_fold ? places_.most_of_all : places_.most_for_slivers)) return false;
     places_.relax(++progress_.relaxed);
     look_again();
     return true;

@@ -19,7 +19,6 @@ SolidProgress::SolidProgress(const SolidProgress &of, Memory &memory)
       first_near(of.first_near),
       most_waited(of.most_waited),
       relaxed(of.relaxed),
-      forks(of.forks),
       largest_target(of.largest_target),
       largest_size(of.largest_size),
       next_closing(of.next_closing),

@@ -58,7 +58,6 @@ struct SolidProgress {
   std::int64_t first_near = 0;                                             ///< tets, when it was not for the first time
   bool most_waited = false;                                                ///< in the round before
   int relaxed = 0;                                                         ///< rules, where little was admissible
-  bool forks = false;                                                      ///< they would have, if they might further
   std::int64_t largest_target = std::numeric_limits<std::int64_t>::max();  ///< up to it the rounds so far are the same
   std::int64_t largest_size = std::numeric_limits<std::int64_t>::max();    ///< likewise, as gaps were left
   std::int64_t next_closing = 0;                                           ///< with fewer tets, gaps are closed

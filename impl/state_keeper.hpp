@@ -19,13 +19,13 @@ class StateKeeper {
   /// So many bytes, which others will use.
   void leave(std::size_t bytes) { of_others_ = bytes; }
 
-  /// Unless it is of this target alone, where only new values may begin, of sharp folds, or where others might have
-  /// some, kept already, or would take memory that the run does not need without it. Where new values may begin must
-  /// not depend on the peak, which depends on the threads. While vertices are removed the way is mostly that to all
-  /// smaller targets, too: such states take the place of others. count: of the tets that are left.
+  /// Unless it is of this target alone, where only new values may begin, of rules that relax further in some runs than
+  /// in others, kept already, or would take memory that the run does not need without it. Where new values may begin
+  /// must not depend on the peak, which depends on the threads. While vertices are removed the way is mostly that to
+  /// all smaller targets, too: such states take the place of others. count: of the tets that are left.
   void keep(SolidRemains<m> &remains, const SolidProgress &progress, std::int64_t count) {
     const bool of_this_target = progress.largest_target < options_.tets, follows = progress.follows();
-    const bool is_way_of_all = progress.relaxed <= SolidPlaces<m>::most_for_slivers && !progress.forks;
+    const bool is_way_of_all = progress.relaxed < SolidPlaces<m>::most_for_slivers;
     if (!states_ || (of_this_target && !follows) || !is_way_of_all) return;
     const auto last_is_no_finer = [&] {
       return !states_->empty() && states_->back().remains.tets.size() <= remains.tets.size();
