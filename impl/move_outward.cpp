@@ -1,6 +1,8 @@
 #include "move_outward.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 
 #include "boundary_distances.hpp"
@@ -19,6 +21,9 @@ constexpr std::size_t many = 1024;
 constexpr double pull = 1e-2;
 /// Of the way, what is tried.
 constexpr double parts_of_way[] = {1, 0.75, 0.5, 0.25};
+/// What a move may leave of a field's change, as a part of the range: where the field bends or jumps, a vertex that
+/// serves it goes nowhere.
+constexpr double most_uneven = 0.002;
 
 /// What original vertices say of where a vertex of the mesh should be.
 struct Evidence {
@@ -45,6 +50,19 @@ struct Evidence {
   }
 };
 
+std::array<double, most_fields> ranges_of(Span<const double> values, std::size_t fields) {
+  std::array<double, most_fields> ranges{};
+  for (std::size_t k = 0; k < fields; k++) {
+    double low = values[k], high = low;
+    for (std::size_t i = k; i < values.size(); i += fields) {
+      low = std::min(low, values[i]);
+      high = std::max(high, values[i]);
+    }
+    ranges[k] = high - low;
+  }
+  return ranges;
+}
+
 class OutwardMoves {
  public:
   OutwardMoves(const Surface &original, const TriangleTree &to_original, Job &job, TetMesh &mesh)
@@ -55,6 +73,7 @@ class OutwardMoves {
         of_rounding_(distance_of_rounding(original)),
         room6_((1 + most_volume) * 6 * enclosed_volume(original.points, original.triangles).value -
                6 * enclosed_volume(mesh.points, mesh.boundary).value),
+        ranges_(ranges_of(mesh.scalars, original.fields)),
         evidence_(mesh.points.size(), Evidence(), &job.memory) {
     gather();
   }
@@ -70,6 +89,11 @@ class OutwardMoves {
   }
 
  private:
+  const Vec3 &point(std::int32_t v) const { return mesh_.points[std::size_t(v)]; }
+  double value(std::int32_t v, std::size_t field) const {
+    return mesh_.scalars[std::size_t(v) * original_.fields + field];
+  }
+
   void gather() {
     Array<std::int32_t> home(&job_.memory);
     Array<double> distance(&job_.memory);
@@ -96,12 +120,14 @@ class OutwardMoves {
     }
   }
 
-  /// As far as the tets about it, the distance and the volume let it.
+  /// As far as the tets about it, the field, the distance and the volume let it.
   bool move(Vec3 &place, const Vec3 &step, Span<const std::int32_t> star) {
     const Vec3 before = place;
     const Tets old = look_at(star);
+    const double uneven = unevenness(step, star);
     const double least2 = std::max(flattest_part * flattest_part * old.flattest2, least_shape * least_shape);
     for (double part : parts_of_way) {
+      if (!(part * uneven <= most_uneven)) continue;
       place = before + part * step;
       const Tets fresh = look_at(star);
       if (!(fresh.flattest2 > least2) || fresh.volume6 - old.volume6 > room6_) continue;
@@ -113,6 +139,33 @@ class OutwardMoves {
     return false;
   }
 
+  /// How differently the fields change along a step in the tets about a vertex, as a part of their ranges: no value at
+  /// its end makes that good.
+  double unevenness(const Vec3 &step, Span<const std::int32_t> star) const {
+    double most = 0;
+    for (std::size_t k = 0; k < original_.fields; k++) most = std::max(most, unevenness(k, step, star) / ranges_[k]);
+    return most;
+  }
+
+  /// Of one: the root of the mean square from the mean, by volume.
+  double unevenness(std::size_t field, const Vec3 &step, Span<const std::int32_t> star) const {
+    double volume = 0, sum = 0, squares = 0;
+    for (std::int32_t t : star) {
+      const Tet &tet = mesh_.tets[std::size_t(t)];
+      const Vec3 &a = point(tet[0]), &b = point(tet[1]), &c = point(tet[2]), &d = point(tet[3]);
+      const double volume6 = det(a, b, c, d);
+      if (!(volume6 > 0)) continue;
+      const Vec3 gradient =
+          TetFrame(a, b, c, d)
+              .gradient(value(tet[0], field), value(tet[1], field), value(tet[2], field), value(tet[3], field));
+      const double change = glm::dot(gradient, step);
+      volume += volume6;
+      sum += volume6 * change;
+      squares += volume6 * change * change;
+    }
+    return std::sqrt(std::max(0.0, squares / volume - sum / volume * (sum / volume)));
+  }
+
   struct Tets {
     double flattest2 = std::numeric_limits<double>::infinity();  // nothing where one is not positive
     double volume6 = 0;
@@ -121,8 +174,8 @@ class OutwardMoves {
   Tets look_at(Span<const std::int32_t> star) const {
     Tets tets;
     for (std::int32_t t : star) {
-      const auto at = [&](std::size_t k) { return mesh_.points[std::size_t(mesh_.tets[std::size_t(t)][k])]; };
-      const Vec3 a = at(0), b = at(1), c = at(2), d = at(3);
+      const Tet &tet = mesh_.tets[std::size_t(t)];
+      const Vec3 &a = point(tet[0]), &b = point(tet[1]), &c = point(tet[2]), &d = point(tet[3]);
       const double volume6 = det(a, b, c, d);
       tets.volume6 += volume6;
       tets.flattest2 = std::min(tets.flattest2, volume6 > 0 ? shape2(a, b, c, d) : 0);
@@ -134,9 +187,10 @@ class OutwardMoves {
   const TriangleTree &to_original_;
   Job &job_;
   TetMesh &mesh_;
-  double of_rounding_, room6_;  // room6_: six times the volume that may be gained
-  double farthest_ = 0;         // of an original vertex, from the mesh
-  Array<Evidence> evidence_;    // of each vertex of the mesh
+  double of_rounding_, room6_;              // room6_: six times the volume that may be gained
+  double farthest_ = 0;                     // of an original vertex, from the mesh
+  std::array<double, most_fields> ranges_;  // of the mesh's fields
+  Array<Evidence> evidence_;                // of each vertex of the mesh
 };
 
 }  // namespace
