@@ -7,6 +7,7 @@
 
 #include "budget.hpp"
 #include "refine.hpp"
+#include "status.hpp"
 
 namespace tetlod {
 
@@ -24,6 +25,21 @@ inline Span<const double> weights_of_attempts(const Budget &budget, const Option
   const bool time_counts = options.effort != effort_accurate || options.time_limit > 0 || options.warm_start > 0;
   if (time_counts || options.max_error > 0 || keeps_all(budget, report)) return {};
   return {weights, std::min(std::size(weights), std::size_t(tets_of_all / report.sound_tets()))};
+}
+
+/// attempt(), which may better what there is. False: a memory limit refused it, and what there is serves. Where the
+/// host's refused it, and something kept of earlier runs could go first, that is thrown on, and all is done again
+/// without.
+template <class Try>
+bool attempt_in_memory(Job &job, const Try &attempt) {
+  try {
+    attempt();
+    return true;
+  } catch (const Error &error) {
+    if (error.status() != Status::memory_limit || (!job.makes_do && job.memory.is_short())) throw;
+    if (job.log) job.log(1, text("an attempt at a better mesh is left out: %s", error.what()).c_str());
+    return false;
+  }
 }
 
 /// The error counts, as a part of the range, and a little what planes that weigh less cost: the boundary's distance,

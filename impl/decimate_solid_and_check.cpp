@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "attempts.hpp"
 #include "deviation.hpp"
 #include "lower_deviation.hpp"
 #include "move_outward.hpp"
@@ -165,7 +166,8 @@ CoarseSolid decimate_solid_and_check(const OriginalSolid &original, SolidOptions
                       coarse.deviation / diagonal, limit)
                      .c_str());
     options.max_deviation = limit * diagonal;
-    CoarseSolid nearer = decimate_with_care(original, options, lowered, history, job);
+    CoarseSolid nearer(job.memory);
+    if (!attempt_in_memory(job, [&] { nearer = decimate_with_care(original, options, lowered, history, job); })) break;
     if (!is_nearer(nearer, coarse, options.tets)) continue;
     nearer.reused = coarse.reused;
     if (coarse.wrong.empty()) nearer.wrong.clear();  // the size serves as well

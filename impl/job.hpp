@@ -29,6 +29,7 @@ class Job {
   Log log;
   const std::atomic<bool> *cancel = nullptr;  ///< set by tetlod_cancel from another thread
   double time_limit = 0;                      ///< seconds for the whole run, 0: none
+  bool makes_do = false;  ///< where memory is short nothing is kept of earlier runs that could go first
 
   void enter(Stage stage) {
     if (stage != stage_) reached_ = 0;

@@ -28,6 +28,7 @@ class Memory final : public std::pmr::memory_resource {
   std::size_t in_use() const noexcept { return in_use_.load(std::memory_order_relaxed); }
   std::size_t peak() const noexcept { return peak_.load(std::memory_order_relaxed); }
   void reset_peak() noexcept { peak_.store(in_use(), std::memory_order_relaxed); }
+  bool is_short() const noexcept { return short_.load(std::memory_order_relaxed); }
   /// Whether anything was refused since it was asked last.
   bool take_shortage() noexcept { return short_.exchange(false); }
   /// What was taken for arrays that are gone goes back to the system.

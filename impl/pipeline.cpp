@@ -82,9 +82,9 @@ class Pipeline : private Remeshing {
       if (!remesh_to_target(worker) && options_.clean_edges == 0) collapse_edges(true, coarse);
     } else if (!collapse_edges(false, coarse)) {
       ladder_ = coarse.is_sound ? Ladder::first_rung : Ladder::whole;
-      const bool serves = may_remesh(coarse) && remesh_to_target(worker) && report_.max_deviation <= far_off;
+      const bool serves = may_remesh(coarse) && remesh_in_place_of(coarse, worker);
       const bool may_fold = coarse.is_sound && options_.max_error == 0 && !meets_size(budget_, coarse.mesh);
-      if (!serves && may_fold) collapse_edges(true, coarse);
+      if (!serves && may_fold) attempt_in_memory(job_, [&] { collapse_edges(true, coarse); });
     }
     if (!coarse.is_sound && mesh_.tets.empty()) {
       if (!options_.remesh)  // who remeshes has looked at that
@@ -95,6 +95,14 @@ class Pipeline : private Remeshing {
     if (collapsed && !coarse.wrong.empty()) stuck_at_ = std::int64_t(coarse.mesh.tets.size());
     if (collapsed) take_over(std::move(coarse));
     return collapsed;
+  }
+
+  /// Whether it led to the size, and not far off.
+  bool remesh_in_place_of(const CoarseSolid &coarse, Worker &worker) {
+    if (!coarse.is_sound) return remesh_to_target(worker) && report_.max_deviation <= far_off;
+    bool met = false;
+    if (!attempt_in_memory(job_, [&] { met = remesh_to_target(worker); })) mesh_.tets.clear();
+    return met && report_.max_deviation <= far_off;
   }
 
   /// Of two of the size the nearer one, where remeshing led far off, else the smaller one.
@@ -111,11 +119,13 @@ class Pipeline : private Remeshing {
   /// Further attempts of a small mesh; the best of all is kept.
   void weigh_planes_otherwise() {
     Attempt best{std::move(mesh_), report_, score_};
-    for (double planes : weights_of_attempts(budget_, options_, report_)) {
-      if (!collapse_otherwise(planes)) continue;
+    const auto attempt = [&](double planes) {
+      if (!collapse_otherwise(planes)) return;
       refine(true);
       if (score_ < best.score) best = {std::move(mesh_), report_, score_};
-    }
+    };
+    for (double planes : weights_of_attempts(budget_, options_, report_))
+      if (!attempt_in_memory(job_, [&] { attempt(planes); })) break;
     keep(std::move(best));
   }
 
@@ -133,9 +143,12 @@ class Pipeline : private Remeshing {
     const Budget budget = budget_;
     SolidOptions options = collapse_options();
     options.max_deviation = far_off * original_.box.diagonal();
-    if (collapse_again(options)) refine(true);
-    const bool is_small = double(mesh_.tets.size()) <= hardly_more * double(far.mesh.tets.size());
-    if (!mesh_.tets.empty() && beyond_.empty() && is_small && report_.max_deviation < far.report.max_deviation) return;
+    const bool is_nearer = attempt_in_memory(job_,
+                                             [&] {
+                                               if (collapse_again(options)) refine(true);
+                                             }) &&
+                           !mesh_.tets.empty() && beyond_.empty() && report_.max_deviation < far.report.max_deviation;
+    if (is_nearer && double(mesh_.tets.size()) <= hardly_more * double(far.mesh.tets.size())) return;
     keep(std::move(far));
     budget_ = budget;
     beyond_.clear();
@@ -265,6 +278,7 @@ class Pipeline : private Remeshing {
 
 void run(const Input &input, const Options &options, Worker &worker, Prepared &prepared, Job &job, Result &result) {
   const auto begin = std::chrono::steady_clock::now();
+  job.makes_do = prepared.empty();
   Pipeline(input, options, prepared, job, result).run(worker);
   result.report.hash = hash_of(result.mesh);
   result.report.peak_bytes = job.memory.peak();
