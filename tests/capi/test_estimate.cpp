@@ -1,5 +1,6 @@
 // What a run is said to need it takes, about, and it takes no more than it is allowed.
 #include <cmath>
+#include <utility>
 
 #include "fixtures.hpp"
 
@@ -136,24 +137,34 @@ TEST(EstimateMemory, OfALaterRunIsLessThanThreeTimesWhatItTakes) {
   }
 }
 
-/// To the byte, with one thread.
+/// To the byte, with one thread; further attempts are left out where they do not fit: of a run with a time limit there
+/// are none.
 TEST(EstimateMemory, ALimitOfThePeakIsEnoughAndOneByteLessIsNot) {
   const Cube cube(8);
-  for (int preset : {TETLOD_PRESET_FAST, TETLOD_PRESET_ACCURATE}) {
-    const auto run_with = [&](std::uint64_t limit, std::uint64_t *peak) {
+  for (const auto &[preset, attempts] :
+       {std::pair(TETLOD_PRESET_FAST, false), {TETLOD_PRESET_ACCURATE, false}, {TETLOD_PRESET_ACCURATE, true}}) {
+    std::string said;
+    const auto run_with = [&, preset = preset, attempts = attempts](std::uint64_t limit, std::uint64_t &peak) {
       tetlod_config config = default_config();
       config.memory_limit = limit;
       const Context context = make_context(config);
       submit(context.get(), cube);
       EXPECT_EQ(tetlod_set_preset(context.get(), preset), TETLOD_OK);
+      EXPECT_EQ(tetlod_set_real(context.get(), TETLOD_OPT_TIME_LIMIT, attempts ? 0 : 1000), TETLOD_OK);
+      const auto log = [](void *to, std::int32_t, const char *message) { *static_cast<std::string *>(to) += message; };
+      EXPECT_EQ(tetlod_set_log(context.get(), log, &said, 0), TETLOD_OK);
       const tetlod_status status = tetlod_run(context.get());
-      if (peak) *peak = report_of(context.get()).peak_bytes;
+      if (status == TETLOD_OK) peak = report_of(context.get()).peak_bytes;
       return status;
     };
-    std::uint64_t peak = 0;
-    ASSERT_EQ(run_with(0, &peak), TETLOD_OK);
-    EXPECT_EQ(run_with(peak, nullptr), TETLOD_OK) << preset;
-    EXPECT_EQ(run_with(peak - 1, nullptr), TETLOD_ERR_MEMORY_LIMIT) << preset;
+    std::uint64_t peak = 0, within = 0;
+    ASSERT_EQ(run_with(0, peak), TETLOD_OK);
+    EXPECT_EQ(run_with(peak, within), TETLOD_OK);
+    EXPECT_EQ(within, peak);
+    EXPECT_EQ(said, "");
+    EXPECT_EQ(run_with(peak - 1, within), attempts ? TETLOD_OK : TETLOD_ERR_MEMORY_LIMIT) << said;
+    EXPECT_EQ(said.find("left out") != said.npos, attempts) << preset << said;
+    EXPECT_EQ(within < peak, attempts);
   }
 }
 
