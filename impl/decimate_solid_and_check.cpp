@@ -88,6 +88,7 @@ bool lower(const OriginalSolid &original, const SolidOptions &options, double le
   lowered.mesh = coarse.mesh;
   lowered.origin = coarse.origin;
   lowered.reused = coarse.reused;
+  lowered.careful_from = coarse.careful_from;
   const Array<std::uint8_t> stay = vertices_that_stay(options, job.memory);
   const TriangleTree &to_original = original.tree.get(job);
   if (least == 0) move_outward(original.surface, to_original, stay, job, lowered.mesh, lowered.origin);
@@ -103,6 +104,7 @@ bool lower(const OriginalSolid &original, const SolidOptions &options, double le
 CoarseSolid decimate_and_check(const OriginalSolid &original, const SolidOptions &options, std::int64_t lowered,
                                SolidHistory &history, Job &job) {
   CoarseSolid coarse(job.memory);
+  coarse.careful_from = options.careful_from;
   coarse.reused = decimate_solid(original, options, history, job, coarse.mesh, coarse.origin);
   if (lowered > 0 && lower(original, options, 0, lowered, job, coarse)) return coarse;
   TreeOnDemand tree;
@@ -116,15 +118,15 @@ CoarseSolid decimate_and_check(const OriginalSolid &original, const SolidOptions
   return coarse;
 }
 
-/// decimate_and_check, with care where that has to be.
+/// decimate_and_check, with more care than options say where that has to be.
 CoarseSolid decimate_with_care(const OriginalSolid &original, SolidOptions options, std::int64_t lowered,
                                SolidHistory &history, Job &job) {
   CoarseSolid best = decimate_and_check(original, options, lowered, history, job);
   const std::int64_t reused = best.reused;  // of other runs
   const auto all = std::int64_t(original.mesh.tets.size()), few = late * std::int64_t(best.mesh.tets.size());
   const bool can_reach_size = !misses_size(options, best.mesh);
-  bool again = best.wants_care;
-  for (options.careful_from = std::min(few, all); again; options.careful_from = all) {
+  bool again = best.wants_care && options.careful_from < all;
+  for (options.careful_from = options.careful_from > 0 ? all : std::min(few, all); again; options.careful_from = all) {
     if (job.log) job.log(1, ("edges collapse again, with more care: " + best.wrong).c_str());
     if (!best.is_sound) best = CoarseSolid(job.memory);
     CoarseSolid careful = decimate_and_check(original, options, lowered, history, job);
@@ -160,6 +162,7 @@ CoarseSolid decimate_solid_and_check(const OriginalSolid &original, SolidOptions
   CoarseSolid coarse = decimate_with_care(original, options, lowered, history, job);
   const double diagonal = box_of(original.surface.points).diagonal();
   if (!went_astray(coarse, options, 2 * far_off * diagonal)) return coarse;
+  options.careful_from = coarse.careful_from;
   for (const double limit : {far_off, 2 * far_off}) {
     if (job.log)
       job.log(1, text("the boundary is %.2g of the diagonal off: edges collapse again, to %.2g at most",

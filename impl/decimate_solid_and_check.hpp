@@ -14,14 +14,15 @@ constexpr double hardly_more = 1.03;
 struct CoarseSolid {
   explicit CoarseSolid(Memory &memory) : mesh(memory), origin(&memory), surface(memory), topology(memory) {}
   TetMesh mesh;
-  Array<std::int32_t> origin;  ///< the original vertex that each point still is, or -1
-  Surface surface;             ///< the boundary with points of its own
-  SurfaceTopology topology;    ///< of that
-  std::int64_t reused = 0;     ///< collapses that decimate_solid's history saved
-  std::string wrong;           ///< with it; empty: nothing
-  bool is_sound = false;       ///< it has but the wrong size, if anything is wrong
-  bool wants_care = false;     ///< its boundary is wrong, which care may avoid
-  double deviation = 0;        ///< between the boundaries, at samples_for() the limit
+  Array<std::int32_t> origin;     ///< the original vertex that each point still is, or -1
+  Surface surface;                ///< the boundary with points of its own
+  SurfaceTopology topology;       ///< of that
+  std::int64_t reused = 0;        ///< collapses that decimate_solid's history saved
+  std::string wrong;              ///< with it; empty: nothing
+  bool is_sound = false;          ///< it has but the wrong size, if anything is wrong
+  bool wants_care = false;        ///< its boundary is wrong, which care may avoid
+  std::int64_t careful_from = 0;  ///< the care that it took, as in SolidOptions; others are likely to need it, too
+  double deviation = 0;           ///< between the boundaries, at samples_for() the limit
 };
 
 /// decimate_solid, with care where the boundary else comes to cross itself, which it seldom does: looking for that in

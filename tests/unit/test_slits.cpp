@@ -67,6 +67,21 @@ TEST_F(Slits, WhatAMemoryLimitRefusesIsLeftOut) {
   }
 }
 
+/// Once for all that are made again, which take as long each.
+TEST_F(Slits, CareIsFoundToBeNeededOnce) {
+  options.effort = effort_fast;
+  options.target_ratio = 0.1;
+  options.remesh = false;
+  for (const int n : {16, 20}) {
+    start_with(n, 4);
+    const std::string said = simplify_within(0);
+    const auto far = said.find("of the diagonal off: edges collapse again");
+    ASSERT_NE(far, said.npos) << said;
+    EXPECT_LT(said.find("with more care"), far) << said;
+    EXPECT_EQ(said.find("with more care", far), said.npos) << said;
+  }
+}
+
 /// What is cheapest is not admissible, for slivers: passed over, it would leave ever dearer edges to collapse.
 TEST_F(Slits, SliversGiveWayBeforeDearEdgesDo) {
   start_with(20, 8);
