@@ -8,6 +8,8 @@ namespace {
 
 /// A vertex nearer than this to a face of the boundary, in weights, goes onto it; to another face, stays off by it.
 constexpr double near_face = 0.12;
+/// What the values that are there count as, in probes: a few that hardly weigh would take the new vertex anywhere.
+constexpr double as_it_is = 0.1;
 
 template <std::size_t m>
 Vec3 centre_of_residuals(const AdaptiveMesh<m> &mesh, std::int32_t t) {
@@ -46,7 +48,8 @@ Values<m> carried_along(const AdaptiveMesh<m> &mesh, std::int32_t t, const Vec3 
   return range.clamp(values);
 }
 
-/// The values at p in t by least squares over its probes, where the hat function of the vertex to be is least weight.
+/// The values at p in t by least squares over its probes, where the hat function of the vertex to be is least weight,
+/// drawn a little towards what the mesh has there.
 template <std::size_t m>
 Values<m> values_at(const AdaptiveMesh<m> &mesh, std::int32_t t, const Vec3 &p) {
   const TetFrame frame = mesh.frame(t);
@@ -68,7 +71,7 @@ Values<m> values_at(const AdaptiveMesh<m> &mesh, std::int32_t t, const Vec3 &p) 
     below += hat * hat;
     range.add(probe.value);
   });
-  for (std::size_t i = 0; i < m && below > 0; i++) values[i] += above[i] / below;
+  for (std::size_t i = 0; i < m; i++) values[i] += above[i] / (below + as_it_is);
   return range.clamp(values);
 }
 
