@@ -125,7 +125,7 @@ typedef struct tetlod_config {
   void *allocator_user;
   uint64_t memory_limit; /* bytes that tetlod may have in use at once in the host, and, apart from that, bytes of
                             address space of each process of tetlod-remesh (there is one a thread at most); 0: no
-                            limit */
+                            limit. What would only better a mesh that is there is left out where it does not fit */
   const char *remesher;  /* path of tetlod-remesh; NULL: the environment's TETLOD_REMESHER (not for setuid programs),
                             else beside the library, else libexec/tetlod. Copied. */
 } tetlod_config;

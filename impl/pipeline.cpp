@@ -143,12 +143,12 @@ class Pipeline : private Remeshing {
     const Budget budget = budget_;
     SolidOptions options = collapse_options();
     options.max_deviation = far_off * original_.box.diagonal();
-    const bool is_nearer = attempt_in_memory(job_,
-                                             [&] {
-                                               if (collapse_again(options)) refine(true);
-                                             }) &&
-                           !mesh_.tets.empty() && beyond_.empty() && report_.max_deviation < far.report.max_deviation;
-    if (is_nearer && double(mesh_.tets.size()) <= hardly_more * double(far.mesh.tets.size())) return;
+    const auto attempt = [&] {
+      if (collapse_again(options)) refine(true);
+    };
+    const bool is_held = attempt_in_memory(job_, attempt) && !mesh_.tets.empty() && beyond_.empty();
+    const bool is_small = double(mesh_.tets.size()) <= hardly_more * double(far.mesh.tets.size());
+    if (is_held && is_small && report_.max_deviation < far.report.max_deviation) return;
     keep(std::move(far));
     budget_ = budget;
     beyond_.clear();
