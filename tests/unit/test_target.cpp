@@ -312,17 +312,6 @@ TEST_F(TargetedRun, IsAccurateOnAStackOfSlabs) {
   expect_accurate(original, {0.5, 0.2, 0.1}, 1e-5, 0.02);
 }
 
-/// Its sides are so near that normals cancel at the rim. Where that comes nearer, it may take half a hundredth.
-TEST_F(TargetedRun, KeepsTheVolumeOfAThinSlab) {
-  Mesh original = kuhn_solid({30, 30, 1}, [](const Cell &) { return true; });
-  transform(original, [](const Vec3 &p) { return Vec3(p.x, p.y, 1e-3 * p.z); });
-  set_scalars(original, [](const Vec3 &p) { return std::sin(9 * p.x) * std::cos(7 * p.y); });
-  for (std::int64_t effort : {effort_fast, effort_accurate}) {
-    collapse(effort);
-    expect_sizes(original, {0.5, 0.12}, effort == effort_fast ? 1e-3 : 0.0051);
-  }
-}
-
 /// A simulation's first step: rounding is all that is left of the error, and no reason to flip faces. In a ball whose
 /// tets have a vertex in common there are many to flip.
 TEST_F(TargetedRun, MeetsItsSizeOfAConstantField) {
