@@ -24,7 +24,7 @@ class AdaptiveMesh : public TetComplex {
         probes(&memory),
         vertex_of_probe(&memory),
         outside(&memory),
-        just_outside(&memory),
+        in_no_tet(&memory),
         first_probe(&memory),
         next_probe(&memory) {}
 
@@ -36,9 +36,9 @@ class AdaptiveMesh : public TetComplex {
   double share_of_vertices = 1;                     ///< of the original vertices that tets use, those that have one
   std::size_t left_out = 0, vertices_left_out = 0;  ///< probes in no tet, and those at original vertices among them
   Array<std::int32_t> vertex_of_probe;              ///< the original vertex of each of those
-  Array<std::uint8_t> outside;       ///< of each: it lies outside, the probe on the boundary; empty: none does
-  Array<std::int32_t> just_outside;  ///< original vertices in no tet, but so little out of one that a change of it may
-                                     ///< make rounding of that
+  Array<std::uint8_t> outside;    ///< of each: it lies outside, the probe on the boundary; empty: none does
+  Array<std::int32_t> in_no_tet;  ///< original vertices, when probes were placed; changes of the mesh may have made
+                                  ///< a matter of rounding of that
   Array<std::int32_t> first_probe, next_probe;  ///< lists of the probes in each tet, ended by -1
 
   /// Finds the neighbours of `tets`, which has no free slot yet; all else of a tet is empty.

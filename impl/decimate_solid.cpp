@@ -40,7 +40,7 @@ class SolidDecimator {
         mesh_(std::move(start.solid)),
         progress_(std::move(start.progress)),
         costs_(mesh_, progress_),
-        places_(mesh_, options.holds_bound, original.surface.points.size()),
+        places_(mesh_, blocks_, options.holds_bound, original.surface.points.size()),
         keeper_(states, options, job),
         count_(std::int64_t(mesh_.tets.size())),
         blocks_(mesh_.points.size(), job.memory),
@@ -330,8 +330,9 @@ class SolidDecimator {
   }
 
   bool is_admissible(std::int32_t v, const CheapestEdge &cheapest, SolidCollapse<m> &collapse) const {
-    return costs_.may_be_removed(v) ? places_.find_removal(v, cheapest.other, collapse)
-                                    : places_.find(v, cheapest.other, cheapest.t, collapse);
+    if (costs_.may_be_removed(v)) return places_.find_removal(v, cheapest.other, collapse);
+    const bool may_widen = !options_.hasty || !progress_.removes();
+    return places_.find(v, cheapest.other, cheapest.t, may_widen, collapse);
   }
 
   void make(const SolidCollapse<m> &collapse, SolidWork<m> &work, CollapseRoom &room) {
@@ -345,16 +346,19 @@ class SolidDecimator {
     }
     mesh_.collapse(collapse.edge, collapse.place, room);
     if (progress_.follows()) progress_.into[std::size_t(collapse.edge.gone)] = v;
-    work.done.gone += std::int64_t(collapse.edge.edge_tets.size());
+    work.done.gone += std::int64_t(collapse.edge.tets_saved());
     work.done.collapses++;
     work.done.cost += cheapest(collapse.found_at).cost;
     progress_.moved[std::size_t(v)] = progress_.round;
     cheapest(v) = CheapestEdge();
-    // What was not admissible around it may be so now.
+    // What was not admissible around it may be so now, and others' edges are gone where a cavity was filled.
     for (std::int32_t t : mesh_.tets_of.of(v))
       for (std::int32_t u : mesh_.tets[std::size_t(t)])
-        if (cheapest(u).round == stuck) cheapest(u) = CheapestEdge();
+        if (cheapest(u).round == stuck || (collapse.edge.is_widened() && has_lost_edge(u)))
+          cheapest(u) = CheapestEdge();
   }
+
+  bool has_lost_edge(std::int32_t v) const { return cheapest(v).other >= 0 && !mesh_.has_edge(v, cheapest(v).other); }
 
   const MeshView &original_;
   TreeOnDemand &tree_;

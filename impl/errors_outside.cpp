@@ -39,26 +39,38 @@ bool is_corner(const TetComplex &mesh, std::int32_t t, const Vec3 &p) {
   return std::any_of(tet.begin(), tet.end(), [&](std::int32_t v) { return mesh.points[std::size_t(v)] == p; });
 }
 
-/// Vertices in tets, but on the boundary, as far as rounding goes: to another they may be outside. Where a vertex of
-/// the mesh is, nobody is outside.
-template <std::size_t m>
-void add_those_on(const BoundaryTree &boundary, Job &job, const AdaptiveMesh<m> &mesh, Array<std::int32_t> &outside) {
-  const double rounding = rounding_of(mesh.points);
+/// Vertices that counts(probe, tet, its least weight there) is true of.
+template <std::size_t m, class Counts>
+void add_probed(Job &job, const AdaptiveMesh<m> &mesh, const Counts &counts, Array<std::int32_t> &vertices) {
   Array<Array<std::int32_t>> parts(mesh.tets.size() / stretch + 1, &job.memory);
   for_each(mesh.tets.size(), job, [&](std::size_t i) {
     const auto t = std::int32_t(i);
     if (!mesh.alive(t)) return;
     const TetFrame frame = mesh.frame(t);
     mesh.for_probes(t, [&](std::int32_t probe) {
-      if (std::size_t(probe) >= mesh.vertex_probes || mesh.outside[std::size_t(probe)]) return;
       double w[4];
-      const Vec3 &p = mesh.probes[std::size_t(probe)].point;
-      if (frame.weights(p, w) > out_by_rounding || is_corner(mesh, t, p)) return;
-      if (boundary.tree.nearest(p).distance <= rounding)
+      if (std::size_t(probe) < mesh.vertex_probes &&
+          counts(probe, t, frame.weights(mesh.probes[std::size_t(probe)].point, w)))
         parts[i / stretch].push_back(mesh.vertex_of_probe[std::size_t(probe)]);
     });
   });
-  for (const Array<std::int32_t> &part : parts) outside.insert(outside.end(), part.begin(), part.end());
+  for (const Array<std::int32_t> &part : parts) vertices.insert(vertices.end(), part.begin(), part.end());
+}
+
+/// Changes of the mesh have left it out of its tet: it may be in another by rounding.
+bool is_left_out(double least_weight) { return least_weight <= -out_by_rounding; }
+
+/// Vertices in tets, but on the boundary, as far as rounding goes, or left out: to another they may be outside. Where a
+/// vertex of the mesh is, nobody is outside.
+template <std::size_t m>
+void add_those_on(const BoundaryTree &boundary, Job &job, const AdaptiveMesh<m> &mesh, Array<std::int32_t> &outside) {
+  const double rounding = rounding_of(mesh.points);
+  const auto counts = [&](std::int32_t probe, std::int32_t t, double least) {
+    const Vec3 &p = mesh.probes[std::size_t(probe)].point;
+    if (mesh.outside[std::size_t(probe)] || least > out_by_rounding || is_corner(mesh, t, p)) return false;
+    return is_left_out(least) || boundary.tree.nearest(p).distance <= rounding;
+  };
+  add_probed(job, mesh, counts, outside);
 }
 
 template <std::size_t m>
@@ -149,20 +161,22 @@ OutsideErrors errors_outside(const MeshView &original, double bound, Job &job, c
 }
 
 template <std::size_t m>
-double largest_just_outside(const MeshView &original, Job &job, const AdaptiveMesh<m> &mesh) {
-  if (mesh.just_outside.empty()) return 0;
-  Array<std::int32_t> just_outside(mesh.just_outside, &job.memory);
-  const Array<double> errors = OutsideVertices<m>(original, std::move(just_outside), job, mesh).errors_in_tets();
+double largest_outside(const MeshView &original, Job &job, const AdaptiveMesh<m> &mesh) {
+  Array<std::int32_t> outside(mesh.in_no_tet, &job.memory);
+  const auto counts = [](std::int32_t, std::int32_t, double least) { return is_left_out(least); };
+  add_probed(job, mesh, counts, outside);
+  if (outside.empty()) return 0;
+  const Array<double> errors = OutsideVertices<m>(original, std::move(outside), job, mesh).errors_in_tets();
   return *std::max_element(errors.begin(), errors.end());
 }
 
 template OutsideErrors errors_outside(const MeshView &, double, Job &, const AdaptiveMesh<1> &);
-template double largest_just_outside(const MeshView &, Job &, const AdaptiveMesh<1> &);
+template double largest_outside(const MeshView &, Job &, const AdaptiveMesh<1> &);
 template OutsideErrors errors_outside(const MeshView &, double, Job &, const AdaptiveMesh<2> &);
-template double largest_just_outside(const MeshView &, Job &, const AdaptiveMesh<2> &);
+template double largest_outside(const MeshView &, Job &, const AdaptiveMesh<2> &);
 template OutsideErrors errors_outside(const MeshView &, double, Job &, const AdaptiveMesh<3> &);
-template double largest_just_outside(const MeshView &, Job &, const AdaptiveMesh<3> &);
+template double largest_outside(const MeshView &, Job &, const AdaptiveMesh<3> &);
 template OutsideErrors errors_outside(const MeshView &, double, Job &, const AdaptiveMesh<4> &);
-template double largest_just_outside(const MeshView &, Job &, const AdaptiveMesh<4> &);
+template double largest_outside(const MeshView &, Job &, const AdaptiveMesh<4> &);
 
 }  // namespace tetlod

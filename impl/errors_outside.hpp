@@ -18,8 +18,9 @@ struct OutsideErrors {
 template <std::size_t m>
 OutsideErrors errors_outside(const MeshView &original, double bound, Job &job, const AdaptiveMesh<m> &mesh);
 
-/// The largest at those that are just outside, where changes of the mesh have made it a matter of rounding.
+/// The largest at vertices that were in no tet, or are left out of theirs, where changes of the mesh have made that a
+/// matter of rounding.
 template <std::size_t m>
-double largest_just_outside(const MeshView &original, Job &job, const AdaptiveMesh<m> &mesh);
+double largest_outside(const MeshView &original, Job &job, const AdaptiveMesh<m> &mesh);
 
 }  // namespace tetlod

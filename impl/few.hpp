@@ -17,6 +17,7 @@ class Few {
     items_[size_++] = item;
     return true;
   }
+  void pop() { size_--; }
   void clear() { size_ = 0; }
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }

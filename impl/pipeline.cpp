@@ -257,9 +257,19 @@ class Pipeline : private Remeshing {
     // A bound is looked for all the same: the sides of a slit may be nearer than weights are rounded by.
     if (bound > 0 || !is_original) refined = tetlod::refine(original_.view, options, job_, mesh_);
     describe_refinement(refined, original_, report_);
+    if (options_.max_deviation > 0 && refined.inserted_on_boundary > 0) measure_deviation_of_result();
     score_ = meets_size(budget_, mesh_) ? score_of(refined, original_.range, report_)
                                         : std::numeric_limits<double>::infinity();
     beyond_ = std::move(refined.beyond_bound);
+  }
+
+  /// Where triangles were divided, other middles than before are samples of a limit.
+  void measure_deviation_of_result() {
+    Surface surface(job_.memory);
+    make_surface({mesh_.points, mesh_.scalars, mesh_.tets, original_.view.fields}, mesh_.boundary, job_, surface);
+    const double deviation = largest_deviation(prepared_.surface(job_), tree(), surface, TreeOnDemand(surface),
+                                               samples_for(options_.max_deviation), job_);
+    report_.max_deviation = deviation / original_.box.diagonal();
   }
 
   void carry() {

@@ -23,8 +23,6 @@ constexpr double vertices_a_tet = 8, inner_a_tet = 8, vertices_without_rounds = 
                  inner_for_values = 1;
 constexpr std::size_t block = 1024;
 constexpr int longest_walk = 200;
-/// A vertex out of a tet by this much of it, in weight, may be out by rounding when the mesh has changed.
-constexpr double just_outside = 3 * out_by_rounding;  // as far as boxes with_rounding() reach
 
 /// Of the values at the corners of t.
 template <std::size_t m>
@@ -171,9 +169,9 @@ class Locator {
   }
 
   /// The tet of p, searched from tet `hint` on, or, where that is -1, from anywhere; -1 outside.
-  std::int32_t find(const Vec3 &p, std::int32_t hint, bool &is_near) const {
+  std::int32_t find(const Vec3 &p, std::int32_t hint) const {
     const std::int32_t t = walk(p, hint >= 0 ? hint : start_);
-    return t >= 0 ? t : search(p, is_near);
+    return t >= 0 ? t : search(p);
   }
 
  private:
@@ -212,9 +210,8 @@ class Locator {
     return -1;
   }
 
-  /// is_near: outside, but it is just so.
-  std::int32_t search(const Vec3 &p, bool &is_near) const {
-    double best = -just_outside;
+  std::int32_t search(const Vec3 &p) const {
+    double best = -out_by_rounding;
     std::int32_t found = -1;
     tree_.any_overlap({p, p}, [&](std::int32_t item) {
       const std::size_t first = std::size_t(item) * together_;
@@ -228,8 +225,7 @@ class Locator {
       }
       return best >= 0;
     });
-    is_near = found >= 0 && best <= -out_by_rounding;
-    return is_near ? -1 : found;
+    return found;
   }
 
   const TetComplex &mesh_;
@@ -288,21 +284,20 @@ Array<std::int32_t> find_homes(Job &job, AdaptiveMesh<m> &mesh) {
   append(0, mesh.vertex_probes);
   append(mesh.vertex_probes, mesh.probes.size());
   const Locator locator(mesh, job);
-  Array<Array<std::int32_t>> just_outside_of_block(home.size() / block + 1, &job.memory);
+  Array<Array<std::int32_t>> outside_of_block(home.size() / block + 1, &job.memory);
   job.parallel.for_blocks(home.size(), block, [&](std::size_t begin, std::size_t end) {
     std::int32_t hint = -1;
     for (std::size_t k = begin; k < end; k++) {
       const auto i = std::size_t(order[k]);
-      bool is_near = false;
-      home[i] = locator.find(mesh.probes[i].point, hint, is_near);
+      home[i] = locator.find(mesh.probes[i].point, hint);
       if (home[i] >= 0) hint = home[i];
-      if (is_near && i < mesh.vertex_probes) just_outside_of_block[begin / block].push_back(mesh.vertex_of_probe[i]);
+      if (home[i] < 0 && i < mesh.vertex_probes) outside_of_block[begin / block].push_back(mesh.vertex_of_probe[i]);
     }
     job.poll(0.1 + 0.1 * double(end) / double(home.size()));
   });
-  mesh.just_outside.clear();
-  for (const Array<std::int32_t> &some : just_outside_of_block)
-    mesh.just_outside.insert(mesh.just_outside.end(), some.begin(), some.end());
+  mesh.in_no_tet.clear();
+  for (const Array<std::int32_t> &some : outside_of_block)
+    mesh.in_no_tet.insert(mesh.in_no_tet.end(), some.begin(), some.end());
   return home;
 }
 

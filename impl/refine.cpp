@@ -59,13 +59,12 @@ class Refinement {
       hold_bound_outside_too();
     } else {
       use_up_tets();
-      report_.max_error = largest_just_outside(original_, job_, mesh_);
+      report_.max_error = largest_outside(original_, job_, mesh_);
     }
     report_.max_error = std::max(report_.max_error, largest_error(mesh_, job_).value);
     report_.mean_square = mesh_.total_error() / double(mesh_.probes.size() - mesh_.left_out);
     report_.outside = double(mesh_.vertices_left_out) / double(mesh_.vertex_probes);
     count_points();
-    if (options_.max_deviation > 0) look_between_new_vertices();
     write();
     return std::move(report_);
   }
@@ -152,20 +151,6 @@ class Refinement {
         (v < first_steiner ? report_.removed_samples : report_.removed_steiner)++;
       }
     }
-  }
-
-  /// Middles of edges and triangles that were none before: a limit is held there, too.
-  void look_between_new_vertices() {
-    const auto is_new = [&](std::int32_t v) { return std::size_t(v) >= first_inserted_; };
-    for (std::size_t t = 0; t < mesh_.tets.size(); t++)
-      for (std::size_t k = 0; k < 4 && mesh_.alive(std::int32_t(t)); k++) {
-        const auto v = [&](int i) { return mesh_.tets[t][std::size_t(tet_face[k][i])]; };
-        if (mesh_.neighbours[t][k] >= 0 || !(is_new(v(0)) || is_new(v(1)) || is_new(v(2)))) continue;
-        const auto at = [&](int i) { return mesh_.points[std::size_t(v(i))]; };
-        look_at((at(0) + at(1) + at(2)) / 3.0);
-        for (int i = 0; i < 3; i++)
-          if (const int j = (i + 1) % 3; is_new(v(i)) || is_new(v(j))) look_at(0.5 * (at(i) + at(j)));
-      }
   }
 
   void look_at(const Vec3 &p) { report_.deviation = std::max(report_.deviation, deviation_at(p)); }

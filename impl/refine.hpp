@@ -35,7 +35,7 @@ struct RefineReport {
   double max_error = 0;    ///< at the original vertices; those farther outside than by rounding with a bound alone
   double mean_square = 0;  ///< of the errors at the probes, in the scalars' unit
   double outside = 0;      ///< share of the original vertices, without a bound
-  double deviation = 0;    ///< of the boundary from the original's, where vertices are new; with a limit between, too
+  double deviation = 0;    ///< of the boundary from the original's, where vertices are new
 };
 
 /// `mesh` has points, scalars and tets. Fits its values, moves inner vertices, flips faces and edges, removes inner

@@ -20,6 +20,10 @@ class SolidBlocks {
 
   /// Whether all of its neighbours are in the same block.
   bool is_inside(std::int32_t v) const { return count_ == 1 || !at_border_[std::size_t(v)]; }
+  /// Whether all of the tet's corners are in the block of v.
+  bool holds(const Tet &t, std::int32_t v) const {
+    return count_ == 1 || std::all_of(t.begin(), t.end(), [&](std::int32_t u) { return of(u) == of(v); });
+  }
 
  private:
   void find_borders(const SolidComplex &mesh, Job &job);

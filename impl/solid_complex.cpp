@@ -62,7 +62,10 @@ double SolidComplex::volume(Job &job) const {
 
 void SolidComplex::collapse(const SolidEdge &edge, const Vec3 &point, CollapseRoom &room) {
   points[std::size_t(edge.stays)] = point;
-  merge_tets(edge, room);
+  if (edge.is_widened())
+    fill_cavity(edge, room);
+  else
+    merge_tets(edge, room);
   if (on_boundary(edge.gone)) merge_triangles(edge, room);
 }
 
@@ -80,6 +83,24 @@ void SolidComplex::merge_tets(const SolidEdge &edge, CollapseRoom &room) {
   }
   tets_of.set(edge.stays, {room.list.data(), left}, room.tets);
   tets_of.clear(edge.gone);
+}
+
+void SolidComplex::fill_cavity(const SolidEdge &edge, CollapseRoom &room) {
+  Few<std::int32_t, 4 * largest_cavity> around;
+  for (std::int32_t t : edge.cavity)
+    for (std::int32_t v : tets[std::size_t(t)])
+      if (v != edge.gone && !around.has(v)) around.push(v);
+  for (std::int32_t t : edge.cavity) tets[std::size_t(t)][0] = -1;
+  for (std::int32_t v : around) {
+    room.list.clear();
+    for (std::int32_t t : tets_of.of(v))
+      if (has_tet(t)) room.list.push_back(t);
+    for (std::size_t i = 0; i < edge.fresh.size(); i++)
+      if (has(edge.fresh[i], v)) room.list.push_back(edge.cavity[i]);
+    tets_of.set(v, room.list, room.tets);
+  }
+  tets_of.clear(edge.gone);
+  for (std::size_t i = 0; i < edge.fresh.size(); i++) tets[std::size_t(edge.cavity[i])] = edge.fresh[i];
 }
 
 void SolidComplex::merge_triangles(const SolidEdge &edge, CollapseRoom &room) {

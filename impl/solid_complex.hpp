@@ -32,12 +32,17 @@ inline Array<std::int32_t> numbers_of(Span<const std::int32_t> left, std::size_t
   return numbers;
 }
 
+inline bool has(const Tet &t, std::int32_t v) { return (t[0] == v) | (t[1] == v) | (t[2] == v) | (t[3] == v); }
+inline bool has(const Triangle &t, std::int32_t v) { return (t[0] == v) | (t[1] == v) | (t[2] == v); }
+
 /// An edge with the tets around it, those at the edge apart.
 struct SolidEdge {
   std::int32_t stays, gone;
   Few<std::int32_t, 2 * largest_cavity> stays_tets;  ///< not looked for where a vertex is removed
   Few<std::int32_t, 2 * largest_cavity> gone_tets;
   Cavity edge_tets;
+  Cavity cavity;  ///< where tets beyond give way, too: all that do
+  Filling fresh;  ///< what comes in their place; else empty
 
   void begin(std::int32_t one_end, std::int32_t other_end) {
     stays = one_end;
@@ -45,7 +50,11 @@ struct SolidEdge {
     stays_tets.clear();
     gone_tets.clear();
     edge_tets.clear();
+    fresh.clear();
   }
+  bool is_widened() const { return !fresh.empty(); }
+  std::size_t tets_around() const { return stays_tets.size() + gone_tets.size() + edge_tets.size(); }
+  std::size_t tets_saved() const { return is_widened() ? cavity.size() - fresh.size() : edge_tets.size(); }
 };
 
 /// What collapses need, for one thread at a time.
@@ -95,6 +104,11 @@ class SolidComplex {
   bool has_vertex(std::int32_t v) const { return !tets_of.of(v).empty(); }
   bool has_tet(std::int32_t t) const { return tets[std::size_t(t)][0] >= 0; }
   bool has_triangle(std::int32_t t) const { return triangles[std::size_t(t)][0] >= 0; }
+  bool has_edge(std::int32_t v, std::int32_t u) const {
+    const Span<const std::int32_t> star = tets_of.of(v);
+    return std::any_of(star.begin(), star.end(),
+                       [&](std::int32_t t) { return has_tet(t) && has(tets[std::size_t(t)], u); });
+  }
   void find_neighbours(std::int32_t v, Neighbours &neighbours) const { neighbours.find(v, tets_of.of(v), tets); }
   static constexpr std::size_t ahead = 4;  ///< vertices, in what follows
   /// What a look around the next ones of these vertices takes comes nearer: first lists, then the tets in them, then
@@ -129,6 +143,7 @@ class SolidComplex {
   double usual_shape2(Memory &memory) const;
   double volume(Job &job) const;
   void merge_tets(const SolidEdge &edge, CollapseRoom &room);
+  void fill_cavity(const SolidEdge &edge, CollapseRoom &room);
   void merge_triangles(const SolidEdge &edge, CollapseRoom &room);
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 #include "solid_mesh.hpp"
 #include "solid_rules.hpp"
+#include "widen_cavity.hpp"
 
 namespace tetlod {
 
@@ -22,8 +23,9 @@ class SolidPlaces {
   using Place = Vector<3 + m>;
 
   /// holds_bound: what is flat gets no flatter. boundary_vertices: of the original.
-  SolidPlaces(const SolidMesh<m> &mesh, bool holds_bound, std::size_t boundary_vertices)
+  SolidPlaces(const SolidMesh<m> &mesh, const SolidBlocks &blocks, bool holds_bound, std::size_t boundary_vertices)
       : mesh_(mesh),
+        blocks_(blocks),
         kept_of_flat_(holds_bound ? 1 : kept_of_flat),
         volume_of_collapse_(volume_to_lose * mesh.measures.volume / double(boundary_vertices)),
         rules_(holds_bound ? of_bound : rules[0]) {}
@@ -33,12 +35,17 @@ class SolidPlaces {
   void relax(int times) { rules_ = rules[times]; }
 
   /// An edge that was found at v collapses to the best place near it, or, where that is not admissible, to the best
-  /// along it, at t.
-  bool find(std::int32_t v, std::int32_t u, double t, SolidCollapse<m> &collapse) const {
+  /// along it, at t. may_widen: else, if tets beyond give way, to one of these all the same.
+  bool find(std::int32_t v, std::int32_t u, double t, bool may_widen, SolidCollapse<m> &collapse) const {
     const auto [stays, gone] = mesh_.ends_of(v, u);
     collapse.found_at = v;
     collapse.of_boundary = mesh_.on_boundary(gone);
-    return look_around(mesh_, stays, gone, collapse.edge) && find_place(t, collapse);
+    if (!look_around(mesh_, stays, gone, collapse.edge)) return false;
+    const Places places = find_places(t, collapse);
+    const auto serves = [&](bool widened) {
+      return std::any_of(places.begin(), places.end(), [&](const Place &at) { return suits(at, widened, collapse); });
+    };
+    return serves(false) || (may_widen && serves(true));
   }
 
   /// v, which is inside, moves into its neighbour.
@@ -50,6 +57,7 @@ class SolidPlaces {
   }
 
  private:
+  using Places = Few<Place, 4>;
   /// Of the volume, that the boundary may lose.
   static constexpr double volume_to_lose = 0.01;
   /// What tets that are flat have to keep of their shape. In a graded mesh most are; nothing could go there without
@@ -71,26 +79,30 @@ class SolidPlaces {
   /// A best place further off than this part of the edge is none.
   static constexpr double longest_step = 0.5;
 
-  bool find_place(double t, SolidCollapse<m> &collapse) const {
+  /// Those that keep the volume, the best one first.
+  Places find_places(double t, const SolidCollapse<m> &collapse) const {
     const SolidEdge &edge = collapse.edge;
     const Place stays = mesh_.place(edge.stays), gone = mesh_.place(edge.gone);
     const Place d = minus(gone, stays), best = along(stays, t, d);
     StepConstraint constraint;
     if (collapse.of_boundary) constraint = keeping_volume(mesh_, edge, point_of(best));
+    Places places;
+    const auto add = [&](const Place &place) {
+      if (keeps_volume(constraint, minus(place, best))) places.push(place);
+    };
     const bool may_move = !mesh_.keeps_place(edge.stays, edge.gone);
     if (may_move) {
       LocalQuadric<3 + m> sum = mesh_.quadric(edge.stays).moved(minus(best, stays));
       sum.add(mesh_.quadric(edge.gone).moved(minus(best, gone)));
       Place step;
-      if (step_to_least(sum, constraint, step) && is_short(step, d) && keeps_volume(constraint, step) &&
-          suits(along(best, 1, step), collapse))
-        return true;
+      if (step_to_least(sum, constraint, step) && is_short(step, d)) add(along(best, 1, step));
     }
-    const auto serves = [&](const Place &place) {
-      return keeps_volume(constraint, minus(place, best)) && suits(place, collapse);
-    };
-    return serves(best) ||
-           (may_move && rules_.at_ends && (serves(t < 0.5 ? stays : gone) || serves(t < 0.5 ? gone : stays)));
+    add(best);
+    if (may_move && rules_.at_ends) {
+      add(t < 0.5 ? stays : gone);
+      add(t < 0.5 ? gone : stays);
+    }
+    return places;
   }
 
   bool keeps_volume(const StepConstraint &constraint, const Place &step) const {
@@ -101,10 +113,12 @@ class SolidPlaces {
     return length2(point_of(step)) <= longest_step * longest_step * length2(point_of(edge));
   }
 
-  bool suits(const Place &place, SolidCollapse<m> &collapse) const {
+  bool suits(const Place &place, bool widened, SolidCollapse<m> &collapse) const {
     collapse.place = place;
-    return !flattens(mesh_, collapse.edge, point_of(place), kept_of_flat_) &&
-           (!collapse.of_boundary || suits_boundary(collapse));
+    const Vec3 point = point_of(place);
+    const bool suits_tets = widened ? widen_cavity(mesh_, blocks_, point, collapse.edge)
+                                    : !flattens(mesh_, collapse.edge, point, kept_of_flat_);
+    return suits_tets && (!collapse.of_boundary || suits_boundary(collapse));
   }
 
   bool suits_boundary(SolidCollapse<m> &collapse) const {
@@ -122,6 +136,7 @@ class SolidPlaces {
   }
 
   const SolidMesh<m> &mesh_;
+  const SolidBlocks &blocks_;
   double kept_of_flat_, volume_of_collapse_;
   Rules rules_;
 };

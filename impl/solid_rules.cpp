@@ -6,9 +6,6 @@ namespace tetlod {
 
 namespace {
 
-bool has(const Tet &t, std::int32_t v) { return (t[0] == v) | (t[1] == v) | (t[2] == v) | (t[3] == v); }
-bool has(const Triangle &t, std::int32_t v) { return (t[0] == v) | (t[1] == v) | (t[2] == v); }
-
 /// Whether tet t, with its corner v at another place, would turn over, or be flat and keep less than `kept` of its
 /// shape.
 bool is_flattened(const SolidComplex &mesh, const Tet &t, std::int32_t v, const Vec3 &place, double kept) {

@@ -2,6 +2,8 @@
 #pragma once
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "brute_force.hpp"
 #include "decimate_solid_and_check.hpp"
 #include "geometry.hpp"
@@ -21,6 +23,16 @@ inline Mesh flat_body() {
     return Vec3(across.x - 0.6 * bent.z, across.y + 0.5 * bent.z, 0.002 * (bent.x + bent.y + bent.z));
   });
   return flat;
+}
+
+/// Inner vertices a little elsewhere.
+inline void jitter(Mesh &mesh, double most, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> step(-most, most);
+  transform(mesh, [&](const Vec3 &p) {
+    const bool inner = std::min({p.x, p.y, p.z}) > 0 && std::max({p.x, p.y, p.z}) < 1;
+    return inner ? p + Vec3(step(random), step(random), step(random)) : p;
+  });
 }
 
 class DecimateSolid : public testing::Test {

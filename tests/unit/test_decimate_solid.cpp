@@ -270,16 +270,6 @@ bool satisfies_link_condition(const std::vector<Simplex> &maximal, std::int32_t 
   return common == link_of(maximal, {a, b});
 }
 
-/// Inner vertices a little elsewhere.
-void jitter(Mesh &mesh, double most, unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> step(-most, most);
-  transform(mesh, [&](const Vec3 &p) {
-    const bool inner = std::min({p.x, p.y, p.z}) > 0 && std::max({p.x, p.y, p.z}) < 1;
-    return inner ? p + Vec3(step(random), step(random), step(random)) : p;
-  });
-}
-
 double volume6(const Mesh &mesh, const Tet &t) {
   const auto p = [&](std::size_t k) { return mesh.points[std::size_t(t[k])]; };
   return det(p(0), p(1), p(2), p(3));

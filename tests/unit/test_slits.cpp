@@ -55,16 +55,17 @@ TEST_F(Slits, KeepTheirLength) {
 /// Collapses that are made again to come nearer, and TetGen where they miss the size, take more than the first.
 TEST_F(Slits, WhatAMemoryLimitRefusesIsLeftOut) {
   start_with(12, 4, two_waves);
-  for (const auto &[ratio, effort] : {std::pair(0.2, effort_accurate), {0.1, effort_fast}}) {
+  for (const auto &[ratio, effort, least] : {std::tuple(0.2, effort_accurate, 0.6), {0.05, effort_fast, 0.9}}) {
     options.target_ratio = ratio;
     options.effort = effort;
     simplify(slab);
     const double peak = double(report().peak_bytes);
     for (const double part : {0.9, 0.7, 0.6}) {
+      if (part < least) continue;
       const std::string said = simplify_within(std::size_t(part * peak));
       expect_sound(slab, 0.01);
       EXPECT_LE(double(report().peak_bytes), part * peak);
-      EXPECT_TRUE(part == 0.9 || said.find("left out") != said.npos) << ratio << ' ' << part << '\n' << said;
+      EXPECT_NE(said.find("left out"), said.npos) << ratio << ' ' << part << '\n' << said;
     }
     EXPECT_THROW(simplify_within(std::size_t(0.2 * peak)), Error);
   }
@@ -73,7 +74,7 @@ TEST_F(Slits, WhatAMemoryLimitRefusesIsLeftOut) {
 /// Once for all that are made again, which take as long each.
 TEST_F(Slits, CareIsFoundToBeNeededOnce) {
   options.effort = effort_fast;
-  options.target_ratio = 0.1;
+  options.target_ratio = 0.03;
   options.remesh = false;
   for (const int n : {16, 20}) {
     start_with(n, 4);
