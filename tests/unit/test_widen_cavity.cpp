@@ -179,7 +179,7 @@ TEST_F(WidenCavity, StaysInItsBlock) {
   EXPECT_GT(refused, 10);
 }
 
-/// Two rooms with walls of one cell: edges hardly collapse there but where tets would turn over, as both sides are in
+/// Eight rooms with walls of one cell: edges hardly collapse there but where tets would turn over, as both sides are in
 /// the way.
 TEST_F(WidenCavity, ThinWallsReachASmallSize) {
   for (const auto &[n, ratio] : {std::pair(12, 0.05), {16, 0.03}, {20, 0.02}}) {
