@@ -126,8 +126,8 @@ class SolidComplex {
   /// Twice the area vector.
   Vec3 normal(std::int32_t triangle) const;
 
-  /// The end that goes becomes the one that stays, which comes to be at `point`. Writes to the two ends, their tets
-  /// and their neighbours' lists alone.
+  /// The end that goes becomes the one that stays, which comes to be at `point`. Writes to the two ends, their tets, or
+  /// those of the cavity, and the lists of the vertices of these alone.
   void collapse(const SolidEdge &edge, const Vec3 &point, CollapseRoom &room);
 
   /// Lists side by side again, when those that have grown take much room.
