@@ -351,14 +351,12 @@ class SolidDecimator {
     work.done.cost += cheapest(collapse.found_at).cost;
     progress_.moved[std::size_t(v)] = progress_.round;
     cheapest(v) = CheapestEdge();
-    // What was not admissible around it may be so now, and others' edges are gone where a cavity was filled.
+    // What was not admissible around it may be so now.
     for (std::int32_t t : mesh_.tets_of.of(v))
       for (std::int32_t u : mesh_.tets[std::size_t(t)])
-        if (cheapest(u).round == stuck || (collapse.edge.is_widened() && has_lost_edge(u)))
-          cheapest(u) = CheapestEdge();
+        if (cheapest(u).round == stuck) cheapest(u) = CheapestEdge();
+    if (collapse.edge.is_widened()) costs_.forget_lost_edges(v, work.edges);
   }
-
-  bool has_lost_edge(std::int32_t v) const { return cheapest(v).other >= 0 && !mesh_.has_edge(v, cheapest(v).other); }
 
   const MeshView &original_;
   TreeOnDemand &tree_;

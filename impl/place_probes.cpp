@@ -352,11 +352,11 @@ void place_probes(const MeshView &original, const ProbeOptions &options, Job &jo
   if (options.most_inner > 0) add_inner(original, options.most_inner, job, mesh.probes);
   Array<std::int32_t> home = find_homes(job, mesh);
   if (options.project_outside) project(job, home, mesh);
-  const auto in_no_tet = [&](std::size_t end) {
+  const auto count_homeless = [&](std::size_t end) {
     return std::size_t(std::count(home.begin(), home.begin() + std::ptrdiff_t(end), -1));
   };
-  mesh.left_out = in_no_tet(home.size());
-  mesh.vertices_left_out = in_no_tet(mesh.vertex_probes);
+  mesh.left_out = count_homeless(home.size());
+  mesh.vertices_left_out = count_homeless(mesh.vertex_probes);
   const Array<std::int32_t> places = sort_by_home(0, mesh.vertex_probes, job, mesh, home);
   put_in_places(places, 0, job, mesh.vertex_of_probe);
   if (options.project_outside) put_in_places(places, 0, job, mesh.outside);

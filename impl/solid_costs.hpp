@@ -65,6 +65,15 @@ class SolidCosts {
     progress_.cheapest[std::size_t(v)] = found;
   }
 
+  /// Where a cavity around v was filled, edges between its neighbours are gone.
+  void forget_lost_edges(std::int32_t v, EdgeCosts &edges) {
+    mesh_.find_neighbours(v, edges.neighbours);
+    for (std::int32_t u : edges.neighbours) {
+      CheapestEdge &cheapest = progress_.cheapest[std::size_t(u)];
+      if (cheapest.other >= 0 && !mesh_.has_edge(u, cheapest.other)) cheapest = CheapestEdge();
+    }
+  }
+
   /// The cheapest of each of these vertices that is to be looked for.
   void find_missing(Span<const std::int32_t> vertices, Job &job) {
     job.parallel.for_blocks(vertices.size(), 256, [&](std::size_t begin, std::size_t end) {

@@ -65,16 +65,16 @@ class GrowingCavity {
     for (std::int32_t t : tets) {
       const Tet &tet = mesh_.tets[std::size_t(t)];
       edge_.cavity.push(t);
-      outer_.push(face_opposite(t, std::size_t(std::find(tet.begin(), tet.end(), end) - tet.begin())));
+      add_outer(vertices_opposite(tet, std::size_t(std::find(tet.begin(), tet.end(), end) - tet.begin())), t);
     }
   }
 
-  OuterFace face_opposite(std::int32_t tet, std::size_t corner) const {
-    const Tet &t = mesh_.tets[std::size_t(tet)];
+  static Triangle vertices_opposite(const Tet &t, std::size_t corner) {
     const auto &face = tet_face[corner];
-    const Triangle vertices{t[std::size_t(face[0])], t[std::size_t(face[1])], t[std::size_t(face[2])]};
-    return {vertices, tet, is_seen(vertices)};
+    return {t[std::size_t(face[0])], t[std::size_t(face[1])], t[std::size_t(face[2])]};
   }
+
+  void add_outer(const Triangle &vertices, std::int32_t tet) { outer_.push({vertices, tet, is_seen(vertices)}); }
 
   bool is_seen(const Triangle &face) const {
     const Vec3 &a = mesh_.point(face[0]), &b = mesh_.point(face[1]), &c = mesh_.point(face[2]);
@@ -88,11 +88,12 @@ class GrowingCavity {
     if (t < 0) return false;
     remove(vertices);
     if (edge_.cavity.has(t)) return remove(vertices);
-    if (taken_++ == most_beyond || !blocks_.holds(mesh_.tets[std::size_t(t)], edge_.stays)) return false;
+    const Tet &tet = mesh_.tets[std::size_t(t)];
+    if (taken_++ == most_beyond || !blocks_.holds(tet, edge_.stays)) return false;
     edge_.cavity.push(t);
     for (std::size_t k = 0; k < 4; k++) {
-      const OuterFace other = face_opposite(t, k);
-      if (!has_all(other.vertices, vertices) && !remove(other.vertices)) outer_.push(other);
+      const Triangle other = vertices_opposite(tet, k);
+      if (!has_all(other, vertices) && !remove(other)) add_outer(other, t);
     }
     return true;
   }
