@@ -17,7 +17,7 @@ void AdaptiveMesh<m>::measure(std::int32_t t) {
   double sum = 0, w[4];
   for_probes(t, [&](std::int32_t p) {
     f.weights(probes[std::size_t(p)].point, w);
-    sum += square(residual(tets[std::size_t(t)], w, probes[std::size_t(p)]));
+    sum += weight_of(p) * square(residual(tets[std::size_t(t)], w, probes[std::size_t(p)]));
   });
   // Differences of the largest doubles may be no numbers, which have no order.
   error[std::size_t(t)] = sum >= 0 ? sum : std::numeric_limits<double>::infinity();
@@ -38,7 +38,7 @@ double AdaptiveMesh<m>::error_after(Span<const std::int32_t> old, Span<const Tet
   for (std::int32_t t : old)
     for (std::int32_t p = first_probe[std::size_t(t)]; p >= 0; p = next_probe[std::size_t(p)]) {
       const Probe<m> &probe = probes[std::size_t(p)];
-      sum += square(residual(fresh[home_among(frames, fresh.size(), 0, probe.point, w)], w, probe));
+      sum += weight_of(p) * square(residual(fresh[home_among(frames, fresh.size(), 0, probe.point, w)], w, probe));
       if (sum > limit) return sum;
     }
   return sum;

@@ -30,9 +30,10 @@ class AdaptiveMesh : public TetComplex {
 
   Array<Values<m>> values;  ///< of each vertex
   FieldScales scales;       ///< of the original
-  Array<double> error;      ///< of each tet: the sum of squares at its probes
+  Array<double> error;      ///< of each tet: the sum of squares at its probes, as they count
   Array<Probe<m>> probes;   ///< first those at original vertices
   std::size_t vertex_probes = 0;
+  double vertex_weight = 1;                         ///< what each of those counts as, of one inside
   double share_of_vertices = 1;                     ///< of the original vertices that tets use, those that have one
   std::size_t left_out = 0, vertices_left_out = 0;  ///< probes in no tet, and those at original vertices among them
   Array<std::int32_t> vertex_of_probe;              ///< the original vertex of each of those
@@ -90,6 +91,13 @@ class AdaptiveMesh : public TetComplex {
     double sum = 0;
     for (std::int32_t t : some) sum += error[std::size_t(t)];
     return sum;
+  }
+
+  double weight_of(std::int32_t probe) const { return std::size_t(probe) < vertex_probes ? vertex_weight : 1; }
+  /// At the probes that are in a tet.
+  double mean_square() const {
+    const std::size_t vertices = vertex_probes - vertices_left_out, all = probes.size() - left_out;
+    return total_error() / (vertex_weight * double(vertices) + double(all - vertices));
   }
 
   /// Whether `fresh` in place of `old`, of `old_error`, changes the sum of squares, and `price` for every tet more, by

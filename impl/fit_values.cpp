@@ -36,9 +36,10 @@ Evidence<m> evidence_of(const AdaptiveMesh<m> &mesh, std::int32_t t) {
     double w[4];
     frame.weights(probe.point, w);
     const Values<m> r = mesh.weighted(mesh.residual(mesh.tets[std::size_t(t)], w, probe));
+    const double weight = mesh.weight_of(p);
     for (std::size_t i = 0; i < 4; i++) {
-      for (std::size_t j = 0; j <= i; j++) products[entry_of(i, j)] += w[i] * w[j];
-      for (std::size_t k = 0; k < m; k++) all.r[i][k] += w[i] * r[k];
+      for (std::size_t j = 0; j <= i; j++) products[entry_of(i, j)] += weight * w[i] * w[j];
+      for (std::size_t k = 0; k < m; k++) all.r[i][k] += weight * w[i] * r[k];
     }
     all.range.add(probe.value);
   });

@@ -20,7 +20,7 @@ Vec3 centre_of_residuals(const AdaptiveMesh<m> &mesh, std::int32_t t) {
     const Probe<m> &probe = mesh.probes[std::size_t(p)];
     double w[4];
     frame.weights(probe.point, w);
-    const double square = mesh.square(mesh.residual(mesh.tets[std::size_t(t)], w, probe));
+    const double square = mesh.weight_of(p) * mesh.square(mesh.residual(mesh.tets[std::size_t(t)], w, probe));
     sum += square * probe.point;
     total += square;
   });
@@ -66,9 +66,10 @@ Values<m> values_at(const AdaptiveMesh<m> &mesh, std::int32_t t, const Vec3 &p) 
     for (int k = 0; k < 4; k++)
       if (at_p[k] > 1e-9) hat = std::min(hat, w[k] / at_p[k]);
     hat = std::max(hat, 0.0);
+    const double weight = mesh.weight_of(number) * hat;
     const Values<m> r = mesh.residual(mesh.tets[std::size_t(t)], w, probe);
-    for (std::size_t i = 0; i < m; i++) above[i] -= hat * r[i];
-    below += hat * hat;
+    for (std::size_t i = 0; i < m; i++) above[i] -= weight * r[i];
+    below += weight * hat;
     range.add(probe.value);
   });
   for (std::size_t i = 0; i < m; i++) values[i] += above[i] / (below + as_it_is);

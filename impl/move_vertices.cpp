@@ -63,7 +63,7 @@ class MovedStar {
       for (std::int32_t p = mesh_.first_probe[std::size_t(star_[i])]; p >= 0; p = mesh_.next_probe[std::size_t(p)]) {
         double w[4];
         const std::size_t home = home_among(frames_, star_.size(), i, mesh_.probes[std::size_t(p)].point, w);
-        const double square = mesh_.square(residual(w, home, mesh_.probes[std::size_t(p)].value));
+        const double square = mesh_.weight_of(p) * mesh_.square(residual(w, home, mesh_.probes[std::size_t(p)].value));
         sum += square;
         if (!(sum < limit)) return false;
         move.error[home] += square;
@@ -140,9 +140,10 @@ class MoveFinder {
         const Probe<m> &probe = mesh_.probes[std::size_t(p)];
         double w[4];
         frame.weights(probe.point, w);
-        ww += w[corner] * w[corner];
+        const double weight = mesh_.weight_of(p) * w[corner];
+        ww += weight * w[corner];
         const Values<m> r = mesh_.residual(tet, w, probe);
-        for (std::size_t k = 0; k < m; k++) wr[k] += w[corner] * r[k];
+        for (std::size_t k = 0; k < m; k++) wr[k] += weight * r[k];
         step.range.add(probe.value);
       });
       wr = mesh_.weighted(wr);

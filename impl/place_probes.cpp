@@ -21,6 +21,9 @@ constexpr double everywhere = 0.14, by_change = 0.42, small_mesh = 1e5, most_for
 /// where values are fitted alone.
 constexpr double vertices_a_tet = 8, inner_a_tet = 8, vertices_without_rounds = 4, inner_without_rounds = 2,
                  inner_for_values = 1;
+/// What a probe at a vertex counts as, of one inside: the original has its values there, and interpolates between. More
+/// where rounds serve both.
+constexpr double weight_of_vertex = 2, more_with_a_round = 0.5;
 constexpr std::size_t block = 1024;
 constexpr int longest_walk = 200;
 
@@ -332,6 +335,7 @@ ProbeOptions enough_probes(double tets, int rounds, bool follows_field) {
   ProbeOptions options;
   options.most_vertices = (rounds > 0 ? vertices_a_tet : vertices_without_rounds) * tets;
   options.most_inner = (rounds > 0 ? inner_a_tet : follows_field ? inner_without_rounds : inner_for_values) * tets;
+  options.vertex_weight = weight_of_vertex + more_with_a_round * rounds;
   return options;
 }
 
@@ -349,6 +353,7 @@ void place_probes(const MeshView &original, const ProbeOptions &options, Job &jo
   mesh.probes.reserve(expected_probes(original, options));
   add_vertices(original, options.most_vertices, job, mesh);
   mesh.vertex_probes = mesh.probes.size();
+  mesh.vertex_weight = options.vertex_weight;
   if (options.most_inner > 0) add_inner(original, options.most_inner, job, mesh.probes);
   Array<std::int32_t> home = find_homes(job, mesh);
   if (options.project_outside) project(job, home, mesh);

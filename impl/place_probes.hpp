@@ -8,6 +8,7 @@ namespace tetlod {
 struct ProbeOptions {
   /// How many probes there are at most; what is left out is spread evenly.
   double most_vertices = std::numeric_limits<double>::infinity(), most_inner = most_vertices;
+  double vertex_weight = 1;      ///< what those at vertices count as, of those inside
   bool project_outside = false;  ///< compare vertices outside of the mesh at the nearest point of its boundary
 };
 

@@ -62,7 +62,7 @@ class Refinement {
       report_.max_error = largest_outside(original_, job_, mesh_);
     }
     report_.max_error = std::max(report_.max_error, largest_error(mesh_, job_).value);
-    report_.mean_square = mesh_.total_error() / double(mesh_.probes.size() - mesh_.left_out);
+    report_.mean_square = mesh_.mean_square();
     report_.outside = double(mesh_.vertices_left_out) / double(mesh_.vertex_probes);
     count_points();
     write();
