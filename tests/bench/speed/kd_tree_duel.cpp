@@ -9,11 +9,8 @@
 #include "sample_interior.hpp"
 #include "stages.hpp"
 
-#if __has_include(<nanoflann.hpp>)
+#if HAS_NANOFLANN
 #include <nanoflann.hpp>
-#define HAS_NANOFLANN 1
-#else
-#define HAS_NANOFLANN 0
 #endif
 
 namespace bench {
