@@ -44,6 +44,7 @@ struct LocalQuadric {
     }
     return sum + sum;
   }
+  double rise(const Vector<n> &d) const { return 2 * dot<n>(g, d) + dot<n>(times<n>(a, d), d); }
   /// weight times (normal . d)^2.
   void add_square(const Vector<n> &normal, double weight) { add(square_of(normal, weight)); }
   /// weight times the squared distance from a plane; nothing, where its normal is none.
@@ -98,6 +99,7 @@ struct StepConstraint {
   Vec3 normal{0};
   double offset = 0;
   bool holds = false;
+  bool is_flat = false;  ///< whether it keeps the new vertex on one plane, with all around
 
   double missed_by(const Vec3 &step) const { return std::abs(offset - glm::dot(normal, step)); }
 };

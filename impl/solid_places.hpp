@@ -26,6 +26,7 @@ class SolidPlaces {
   SolidPlaces(const SolidMesh<m> &mesh, const SolidBlocks &blocks, bool holds_bound, std::size_t boundary_vertices)
       : mesh_(mesh),
         blocks_(blocks),
+        keeps_planes_(!holds_bound),
         kept_of_flat_(holds_bound ? 1 : kept_of_flat),
         volume_of_collapse_(volume_to_lose * mesh.measures.volume / double(boundary_vertices)),
         rules_(holds_bound ? of_bound : rules[0]) {}
@@ -57,7 +58,7 @@ class SolidPlaces {
   }
 
  private:
-  using Places = Few<Place, 4>;
+  using Places = Few<Place, 5>;
   /// Of the volume, that the boundary may lose.
   static constexpr double volume_to_lose = 0.01;
   /// What tets that are flat have to keep of their shape. In a graded mesh most are; nothing could go there without
@@ -92,10 +93,10 @@ class SolidPlaces {
     };
     const bool may_move = !mesh_.keeps_place(edge.stays, edge.gone);
     if (may_move) {
-      LocalQuadric<3 + m> sum = mesh_.quadric(edge.stays).moved(minus(best, stays));
-      sum.add(mesh_.quadric(edge.gone).moved(minus(best, gone)));
-      Place step;
-      if (step_to_least(sum, constraint, step) && is_short(step, d)) add(along(best, 1, step));
+      Place least = best, step;
+      if (step_to_least(quadric_at(edge, best), constraint, step) && is_short(step, d)) least = along(best, 1, step);
+      if (collapse.of_boundary && keeps_planes_ && !constraint.is_flat) add_on_planes(edge, best, least, places);
+      if (least != best) add(least);
     }
     add(best);
     if (may_move && rules_.at_ends) {
@@ -103,6 +104,35 @@ class SolidPlaces {
       add(t < 0.5 ? gone : stays);
     }
     return places;
+  }
+
+  /// The end, or the best place along the edge, where planes around stay planes, if it costs hardly more than the
+  /// least.
+  void add_on_planes(const SolidEdge &edge, const Place &best, const Place &least, Places &places) const {
+    constexpr double hardly_more = 1.1;
+    const EndsOnPlanes on = ends_on_planes(mesh_, edge);
+    if (!on.stays && !on.gone) return;
+    const Place at =
+        with_best_values(edge, on.stays && on.gone ? best : mesh_.place(on.stays ? edge.stays : edge.gone));
+    if (cost_of(edge, at) <= hardly_more * cost_of(edge, least)) places.push(at);
+  }
+
+  Place with_best_values(const SolidEdge &edge, Place at) const {
+    const LocalQuadric<3 + m> sum = quadric_at(edge, at);
+    for (std::size_t i = 3; i < 3 + m; i++) at[i] -= sum.g[i] / sum.a[entry_of(i, i)];
+    return at;
+  }
+
+  /// Of both ends, kept at a place.
+  LocalQuadric<3 + m> quadric_at(const SolidEdge &edge, const Place &at) const {
+    LocalQuadric<3 + m> sum = mesh_.quadric(edge.stays).moved(minus(at, mesh_.place(edge.stays)));
+    sum.add(mesh_.quadric(edge.gone).moved(minus(at, mesh_.place(edge.gone))));
+    return sum;
+  }
+
+  double cost_of(const SolidEdge &edge, const Place &at) const {
+    const auto rise_from = [&](std::int32_t end) { return mesh_.quadric(end).rise(minus(at, mesh_.place(end))); };
+    return rise_from(edge.stays) + rise_from(edge.gone);
   }
 
   bool keeps_volume(const StepConstraint &constraint, const Place &step) const {
@@ -137,6 +167,8 @@ class SolidPlaces {
 
   const SolidMesh<m> &mesh_;
   const SolidBlocks &blocks_;
+  /// With a bound the ends of slits would slide along them until nothing is left to collapse.
+  bool keeps_planes_;
   double kept_of_flat_, volume_of_collapse_;
   Rules rules_;
 };

@@ -74,6 +74,20 @@ bool add_spoke(const SolidComplex &mesh, const Side &side, Star &star) {
   return true;
 }
 
+/// Of the triangles around the other end of an edge, as nearly as coordinates of single precision leave them.
+bool is_on_planes(const SolidComplex &mesh, std::int32_t end, std::int32_t other) {
+  constexpr double rounding = 1e-5;  // of the edge
+  const Vec3 edge = mesh.point(end) - mesh.point(other);
+  const double off2 = rounding * rounding * length2(edge);
+  const Span<const std::int32_t> around = mesh.triangles_of.of(other);
+  return std::all_of(around.begin(), around.end(), [&](std::int32_t t) {
+    if (!mesh.has_triangle(t)) return true;
+    const Vec3 normal = mesh.normal(t);
+    const double off = glm::dot(normal, edge);
+    return off * off <= off2 * length2(normal);
+  });
+}
+
 }  // namespace
 
 bool look_around(const SolidComplex &mesh, std::int32_t stays, std::int32_t gone, SolidEdge &edge) {
@@ -128,8 +142,12 @@ bool look_around_on_boundary(const SolidComplex &mesh, const SolidEdge &edge, co
   return at == sides[0].from;
 }
 
+EndsOnPlanes ends_on_planes(const SolidComplex &mesh, const SolidEdge &edge) {
+  return {is_on_planes(mesh, edge.stays, edge.gone), is_on_planes(mesh, edge.gone, edge.stays)};
+}
+
 StepConstraint keeping_volume(const SolidComplex &mesh, const SolidEdge &edge, const Vec3 &from) {
-  constexpr double crumpled = 0.01;  // of the area
+  constexpr double crumpled = 0.01, flat = 1 - 1e-8;  // of the area
   StepConstraint constraint;
   double area = 0;
   for (std::int32_t end : {edge.stays, edge.gone})
@@ -143,6 +161,7 @@ StepConstraint keeping_volume(const SolidComplex &mesh, const SolidEdge &edge, c
       area += glm::length(normal);
     }
   constraint.holds = glm::length(constraint.normal) > crumpled * area;
+  constraint.is_flat = glm::length(constraint.normal) > flat * area;
   return constraint;
 }
 

@@ -22,6 +22,13 @@ bool flattens(const SolidComplex &mesh, const SolidEdge &edge, const Vec3 &place
 /// the boundary's edges, and where the surface's links share more than that of the edge.
 bool look_around_on_boundary(const SolidComplex &mesh, const SolidEdge &edge, const Vec3 &place, Star &star);
 
+/// Which ends of an edge of the boundary lie on the planes of all triangles around the other one, so that the shape
+/// stays what it is there.
+struct EndsOnPlanes {
+  bool stays, gone;
+};
+EndsOnPlanes ends_on_planes(const SolidComplex &mesh, const SolidEdge &edge);
+
 /// What a step of the new vertex, from `from` on, must be to keep the volume [Lindstrom and Turk]: six times as much is
 /// lost as it is missed by. It does not hold where the surface is too crumpled to have a normal.
 StepConstraint keeping_volume(const SolidComplex &mesh, const SolidEdge &edge, const Vec3 &from);

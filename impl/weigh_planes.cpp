@@ -30,9 +30,7 @@ struct QuadricsAround {
     here += dot<n>(moved.g, way);
     sum.add(moved);
   }
-  double after(const Vector<n> &step) const {
-    return std::max(0.0, here + 2 * dot<n>(sum.g, step) + dot<n>(times<n>(sum.a, step), step));
-  }
+  double after(const Vector<n> &step) const { return std::max(0.0, here + sum.rise(step)); }
 };
 
 /// Others stay, and would take long.

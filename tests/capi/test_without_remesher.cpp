@@ -63,7 +63,7 @@ TEST_F(WithoutRemesher, ASizeThatCannotBeHadIsMissed) {
 /// But where they have collapsed.
 TEST_F(WithoutRemesher, TetsThatOverlapLeadToNone) {
   for (std::size_t k = 0; k < 3; k++) cube.xyz[3 * std::size_t((3 * 7 + 3) * 7 + 3) + k] = 0.9;
-  EXPECT_EQ(run(0.02), TETLOD_OK) << message_of(context.get());
+  EXPECT_EQ(run(0.01), TETLOD_OK) << message_of(context.get());
   EXPECT_EQ(run(0.9), TETLOD_ERR_REMESH);
   EXPECT_EQ(message_of(context.get()).find("edges collapsed in vain: "), 0U) << message_of(context.get());
 }

@@ -54,5 +54,25 @@ TEST_F(SolidDeviation, SameBytesForAnyNumberOfThreads) {
   }
 }
 
+/// A field that changes along them would dent them a little, and a third of the vertices would be outside of the
+/// result.
+TEST_F(SolidDeviation, IsNoneWhereWallsArePlane) {
+  for (bool single : {false, true}) {
+    Mesh mesh = kuhn_cube(12);
+    transform(mesh, [&](const Vec3 &p) {
+      const Vec3 turned(0.8 * p.x - 0.6 * p.y, 0.6 * p.x + 0.8 * p.y, 2 * p.z + 0.3 * p.x);
+      return single ? Vec3(float(turned.x), float(turned.y), float(turned.z)) : turned;
+    });
+    set_scalars(mesh, waves);
+    start_with(mesh);
+    for (double ratio : {0.5, 0.3}) {
+      CoarseSolid coarse(host.memory);
+      ASSERT_TRUE(decimate(ratio, host, coarse)) << failure;
+      expect_sound(coarse);
+      EXPECT_LT(deviation_of(coarse), single ? 1e-6 : 1e-12) << ratio;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace tetlod
