@@ -167,8 +167,7 @@ class SolidPlaces {
 
   const SolidMesh<m> &mesh_;
   const SolidBlocks &blocks_;
-  /// With a bound the ends of slits would slide along them until nothing is left to collapse.
-  bool keeps_planes_;
+  bool keeps_planes_;  // with a bound slits would lose their ends
   double kept_of_flat_, volume_of_collapse_;
   Rules rules_;
 };

@@ -54,8 +54,7 @@ TEST_F(SolidDeviation, SameBytesForAnyNumberOfThreads) {
   }
 }
 
-/// A field that changes along them would dent them a little, and a third of the vertices would be outside of the
-/// result.
+/// A field that changes along them would dent them a little.
 TEST_F(SolidDeviation, IsNoneWhereWallsArePlane) {
   for (bool single : {false, true}) {
     Mesh mesh = kuhn_cube(12);
