@@ -273,6 +273,7 @@ Defects find_defects(const Input &input, const Options &options, Job &job) {
 
 Error verdict_on(const Input &input, const Options &options, const Defects &defects, Job &job) {
   try {
+    check_counts(input);  // before policies: as a run does
     if (any_strict_policy(options)) refuse_defects(defects, options);
     Original original(job.memory);
     Boundary boundary(job.memory);

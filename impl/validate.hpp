@@ -36,7 +36,7 @@ struct Defects {
   std::int64_t boundary_triangles = 0, components = 0;  ///< 0 where the boundary cannot be made out
 };
 
-/// Looks at everything, stops at nothing but the job's limits. Shapes and counts of the input are sound.
+/// Looks at everything, stops at nothing but the job's limits. Shapes of the input are sound.
 Defects find_defects(const Input &input, const Options &options, Job &job);
 
 /// What a run with an undecimated boundary would say of the mesh before remeshing; Status::ok when nothing. Throws what

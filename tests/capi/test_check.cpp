@@ -219,6 +219,22 @@ TEST(Check, NamesAPointOfAnEdgeAndOneThatIsCutApart) {
   EXPECT_EQ(at_a_point.nonmanifold_points.first, 13);
 }
 
+TEST(Check, RefusesCountsBeforeAPolicyTheMesh) {
+  Cube cube(2);
+  cube.corners.insert(cube.corners.end(), cube.corners.begin(), cube.corners.begin() + 4);
+  const Context context = make_context();
+  submit(context.get(), cube);
+  ASSERT_EQ(tetlod_set_int(context.get(), TETLOD_OPT_ON_DUPLICATE, TETLOD_POLICY_ERROR), TETLOD_OK);
+  const std::vector<std::uint8_t> flags(cube.values.size() + 1, 0);
+  const tetlod_array array = array_of(TETLOD_UINT8, flags.size(), 1, const_cast<std::uint8_t *>(flags.data()));
+  ASSERT_EQ(tetlod_submit_point_flags(context.get(), &array), TETLOD_OK);
+  tetlod_mesh_report report{};
+  report.struct_size = sizeof report;
+  EXPECT_EQ(tetlod_run(context.get()), TETLOD_ERR_ARGUMENT);
+  EXPECT_EQ(tetlod_check(context.get(), &report), TETLOD_ERR_ARGUMENT);
+  EXPECT_EQ(message_of(context.get()), "28 flags for 27 points");
+}
+
 TEST(Check, NumbersFromTheIndexBase) {
   Cube cube(2);
   for (std::int32_t &v : cube.corners) v++;
