@@ -62,10 +62,12 @@ tetlod_status tetlod_check(tetlod_context *handle, tetlod_mesh_report *out) {
     connect_log(job, context);
     connect_progress(job, context);
     const Input input = with_scalars(context.input);
-    const Defects defects = find_defects(input, context.options, job);
-    const Error verdict = verdict_on(input, context.options, defects, job);
-    copy_struct(report_of(defects, verdict.status()), out);
-    if (verdict.status() != Status::ok) context.message.set(verdict.what());
+    ahead_of_what_is_kept(context, [&] {
+      const Defects defects = find_defects(input, context.options, job);
+      const Error verdict = verdict_on(input, context.options, defects, job);
+      copy_struct(report_of(defects, verdict.status()), out);
+      if (verdict.status() != Status::ok) context.message.set(verdict.what());
+    });
   });
 }
 

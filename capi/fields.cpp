@@ -66,7 +66,8 @@ const Stencil &stencil_of(tetlod_context &context) {
     begin(context);
     Job job(context.memory, context.parallel);
     connect_log(job, context);
-    find_stencil(original, outcome.options, context.prepared, job, outcome.result);
+    ahead_of_what_is_kept(context,
+                          [&] { find_stencil(original, outcome.options, context.prepared, job, outcome.result); });
   }
   return outcome.result.stencil;
 }

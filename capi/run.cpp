@@ -92,9 +92,11 @@ tetlod_status tetlod_measure_error(tetlod_context *handle, int32_t samples_per_t
     Job job(context.memory, context.parallel);
     connect_log(job, context);
     connect_progress(job, context);
-    refuse_changed(fingerprint_of_mesh(original, options, job), outcome.result);
-    const FieldError error = measure_error(original, options, outcome.result.mesh, samples_per_tet, job);
-    copy_struct(report_of(error, samples_per_tet), out);
+    ahead_of_what_is_kept(context, [&] {
+      refuse_changed(fingerprint_of_mesh(original, options, job), outcome.result);
+      const FieldError error = measure_error(original, options, outcome.result.mesh, samples_per_tet, job);
+      copy_struct(report_of(error, samples_per_tet), out);
+    });
   });
 }
 

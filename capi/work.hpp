@@ -18,29 +18,35 @@ void require_submitted(const Input &input);
 /// are left out: they are not needed again, and those of the run may be gone.
 Input original_of(const Outcome &outcome, const Input &now);
 
-/// body(), which may use and renew context.prepared. What is kept of earlier runs is the first to go when memory is
-/// short here, not in the remeshing process: then it is called again without. After a throw nothing is kept.
+/// body(). What is kept of earlier runs is the first to go when memory is short here, not in the remeshing process:
+/// then it is called again.
 template <class Body>
-void with_what_is_kept(tetlod_context &context, const Body &body) {
+void ahead_of_what_is_kept(tetlod_context &context, const Body &body) {
   const bool any_kept = !context.prepared.empty();
   context.memory.take_shortage();
-  const auto call = [&] {
-    try {
-      body();
-    } catch (...) {
-      context.prepared.forget(context.memory);
-      throw;
-    }
-  };
   try {
-    return call();
+    return body();
   } catch (const Error &error) {
     const bool is_shortage = error.status() == Status::memory || error.status() == Status::memory_limit;
     if (!any_kept || !is_shortage || !context.memory.take_shortage()) throw;
   } catch (const std::bad_alloc &) {  // of what takes its memory elsewhere
     if (!any_kept) throw;
   }
-  call();
+  context.prepared.forget(context.memory);
+  body();
+}
+
+/// body(), which may use and renew context.prepared: after a throw nothing is kept.
+template <class Body>
+void with_what_is_kept(tetlod_context &context, const Body &body) {
+  ahead_of_what_is_kept(context, [&] {
+    try {
+      body();
+    } catch (...) {
+      context.prepared.forget(context.memory);
+      throw;
+    }
+  });
 }
 
 /// The work that begins here is what tetlod_cancel means from now on.

@@ -83,6 +83,8 @@ TEST(Faults, EveryHookedAllocationOfMeasureError) {
   CountingAllocator allocator;
   Rerun rerun(allocator.config());
   ASSERT_EQ(tetlod_run(rerun.context.get()), TETLOD_OK);
+  ASSERT_EQ(tetlod_clear(rerun.context.get()), TETLOD_OK);  // of the mesh nothing is kept then
+  submit(rerun.context.get(), rerun.second);
   const std::size_t before = allocator.in_use();
   tetlod_error_report report{};
   report.struct_size = sizeof report;

@@ -323,44 +323,6 @@ TEST_F(Reuse, ClearForgets) {
   EXPECT_EQ(expect_fresh_bytes().reused_tets, 0);
 }
 
-/// A run that finds no memory gives back what is kept, and tries again.
-TEST_F(Reuse, MemoryThatIsShort) {
-  CountingAllocator allocator;
-  context = make_context(allocator.config());
-  set_up(context.get());
-  ASSERT_EQ(tetlod_run(context.get()), TETLOD_OK);
-  const std::vector<unsigned char> wanted = bytes_of(context.get());
-  int failures = 0;
-  for (long allocation = 0; allocation < 200; allocation += 17) {
-    allocator.fail_after(allocation);
-    EXPECT_EQ(tetlod_run(context.get()), TETLOD_OK) << "after " << allocation << ": " << message_of(context.get());
-    EXPECT_EQ(bytes_of(context.get()), wanted);
-    EXPECT_EQ(report_of(context.get()).reused_tets, allocator.failed() ? 0 : tets());
-    failures += allocator.failed();
-    allocator.forget_failure();
-  }
-  EXPECT_GT(failures, 0);
-  expect_fresh_bytes();
-  context.reset();  // before its allocator goes
-}
-
-/// The same of a limit: what is kept of another size is no reason to fail.
-TEST_F(Reuse, MemoryThatIsLimited) {
-  cube = Cube(12);
-  const auto run = [&](tetlod_context *of, double ratio) {
-    tetlod_set_int(of, TETLOD_OPT_EFFORT, TETLOD_EFFORT_FAST);
-    tetlod_set_real(of, TETLOD_OPT_TARGET_RATIO, ratio);
-    submit(of, cube);
-    EXPECT_EQ(tetlod_run(of), TETLOD_OK) << message_of(of);
-    return report_of(of);
-  };
-  tetlod_config config = default_config();
-  config.memory_limit = run(make_context().get(), 0.9).peak_bytes / 10 * 11;
-  const Context limited = make_context(config);
-  run(limited.get(), 0.02);
-  EXPECT_EQ(run(limited.get(), 0.9).reused_tets, 0);
-}
-
 /// Values so far from those before that what these left is forgotten in the middle of a run for a bound.
 TEST_F(Reuse, WhatARunForABoundKeepsIsNotTakenForASize) {
   cube = Cube(10);
