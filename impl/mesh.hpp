@@ -63,6 +63,16 @@ inline bool has_repeated_vertex(const Tet &t) {
 /// det(p1 - p0, p2 - p0, p3 - p0) > 0.
 constexpr int tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
+inline bool has(const Tet &t, std::int32_t v) { return (t[0] == v) | (t[1] == v) | (t[2] == v) | (t[3] == v); }
+inline bool has(const Triangle &t, std::int32_t v) { return (t[0] == v) | (t[1] == v) | (t[2] == v); }
+
+template <class Simplex, class Vertices>
+bool has_all(const Simplex &simplex, const Vertices &vertices) {
+  bool all = true;  // without branches
+  for (std::int32_t v : vertices) all &= has(simplex, v);
+  return all;
+}
+
 /// A closed surface, triangles counter-clockwise seen from outside the solid. It may touch itself at
 /// vertices and along edges where the solid does (an edge then has four or more triangles).
 struct Surface {

@@ -19,14 +19,6 @@ struct RefineOptions {
   double max_deviation = 0;          ///< of a new vertex of the boundary from the original's; 0: no limit
 };
 
-/// Of so many tets, those that there shall be before the largest errors get the rest: for three hundredths of the tets
-/// the largest is 0.5 to 0.6 of it, and the mean no more. Of few tets all. With a bound the largest errors get as many
-/// as they need.
-inline std::int64_t before_lowering(std::int64_t tets, double bound) {
-  constexpr std::int64_t few = 100;
-  return tets < few || bound > 0 ? tets : tets - tets * 3 / 100;
-}
-
 struct RefineReport {
   explicit RefineReport(Memory &memory) : beyond_bound(&memory) {}
   std::int64_t inserted = 0, inserted_on_boundary = 0;

@@ -1,17 +1,12 @@
 // Tets and triangles that have some vertices in common, and what comes in their place.
 #pragma once
 #include "few.hpp"
+#include "mesh.hpp"
 #include "star_lists.hpp"
 
 namespace tetlod {
 
 using FewVertices = Few<std::int32_t, 3>;
-
-template <std::size_t corners>
-bool has_all(const std::array<std::int32_t, corners> &simplex, const FewVertices &vertices) {
-  return std::all_of(vertices.begin(), vertices.end(),
-                     [&](std::int32_t v) { return std::find(simplex.begin(), simplex.end(), v) != simplex.end(); });
-}
 
 /// Those in the list of the first vertex that have all.
 template <std::size_t corners>

@@ -32,9 +32,6 @@ inline Array<std::int32_t> numbers_of(Span<const std::int32_t> left, std::size_t
   return numbers;
 }
 
-inline bool has(const Tet &t, std::int32_t v) { return (t[0] == v) | (t[1] == v) | (t[2] == v) | (t[3] == v); }
-inline bool has(const Triangle &t, std::int32_t v) { return (t[0] == v) | (t[1] == v) | (t[2] == v); }
-
 /// An edge with the tets around it, those at the edge apart.
 struct SolidEdge {
   std::int32_t stays, gone;

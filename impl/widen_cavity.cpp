@@ -18,11 +18,6 @@ struct OuterFace {
   bool is_seen;
 };
 
-template <class Simplex>
-bool has_all(const Simplex &simplex, const Triangle &face) {
-  return int(has(simplex, face[0])) & int(has(simplex, face[1])) & int(has(simplex, face[2]));
-}
-
 class GrowingCavity {
  public:
   GrowingCavity(const SolidComplex &mesh, const SolidBlocks &blocks, const Vec3 &place, SolidEdge &edge)
