@@ -1,6 +1,9 @@
 #include "insert_vertices.hpp"
 
 #include <algorithm>
+#include <utility>
+
+#include "few.hpp"
 
 namespace tetlod {
 
@@ -91,15 +94,69 @@ std::size_t sort_worst(const AdaptiveMesh<m> &mesh, std::size_t first, std::size
   return last;
 }
 
-/// Whether faces of the boundary may be divided at a place: at it, and at the middles of the new edges and triangles. A
-/// corner of the simplex gives way to the new vertex in each.
-bool may_divide(const TetComplex &mesh, Span<const Triangle> faces, Span<const std::int32_t> simplex,
-                const Vec3 &place) {
+/// The tet, or the face or edge of it, that gets a vertex, and where.
+struct Divided {
+  Few<std::int32_t, 4> corners;
+  Vec3 place{0};
+};
+
+/// Corners that p in t has a weight below `snap` of do not count.
+Divided divided_at(const TetComplex &mesh, std::int32_t t, const Vec3 &p, double snap) {
+  Divided divided;
+  double w[4], total = 0;
+  mesh.frame(t).weights(p, w);
+  for (int k = 0; k < 4; k++) {
+    if (w[k] < snap) continue;
+    divided.corners.push(mesh.tets[std::size_t(t)][std::size_t(k)]);
+    divided.place += w[k] * mesh.corner(t, k);
+    total += w[k];
+  }
+  divided.place = divided.corners.size() == 4 ? p : divided.place / total;
+  return divided;
+}
+
+/// What becomes of the tets that have all of some corners, of which t is one: a new vertex takes the place of each.
+struct Division {
+  Division(const TetComplex &mesh, std::int32_t t, const Few<std::int32_t, 4> &corners, Memory &memory)
+      : old(&memory), fresh(&memory), faces(&memory) {
+    const auto v = std::int32_t(mesh.points.size());
+    mesh.tets_with(t, corners.begin(), corners.size(), old);
+    for (std::int32_t whole : old)
+      for (std::size_t k = 0; k < 4; k++) {
+        Tet part = mesh.tets[std::size_t(whole)];
+        const int *face = tet_face[k];
+        if (corners.has(std::exchange(part[k], v)))
+          fresh.push_back(part);
+        else if (mesh.neighbours[std::size_t(whole)][k] < 0)
+          faces.push_back({part[std::size_t(face[0])], part[std::size_t(face[1])], part[std::size_t(face[2])]});
+      }
+  }
+
+  Array<std::int32_t> old;
+  Array<Tet> fresh;
+  Array<Triangle> faces;  ///< of the boundary, that are divided
+};
+
+/// Where the solid touches itself along an edge, not all of its tets are neighbours.
+bool is_touching_edge(const TetComplex &mesh, Span<const std::int32_t> corners) {
+  return corners.size() == 2 && mesh.fixed[std::size_t(corners[0])] == touching &&
+         mesh.fixed[std::size_t(corners[1])] == touching;
+}
+
+/// Faces among vertices that the host keeps stay, so that partitions with kept interfaces go on fitting.
+bool are_kept(const TetComplex &mesh, Span<const std::int32_t> corners) {
+  return std::all_of(corners.begin(), corners.end(),
+                     [&](std::int32_t u) { return (mesh.kept[std::size_t(u)] & ~held) != 0; });
+}
+
+/// Whether it may be boundary: the place, and the middles of the new edges and triangles.
+bool may_bound(const TetComplex &mesh, Span<const Triangle> faces, const Divided &divided) {
+  const Vec3 &place = divided.place;
   if (!mesh.may_bound) return true;
   if (!mesh.may_bound(place)) return false;
   for (const Triangle &face : faces)
     for (std::size_t k = 0; k < 3; k++) {
-      if (std::find(simplex.begin(), simplex.end(), face[k]) == simplex.end()) continue;
+      if (!divided.corners.has(face[k])) continue;
       const Vec3 &a = mesh.points[std::size_t(face[(k + 1) % 3])], &b = mesh.points[std::size_t(face[(k + 2) % 3])];
       for (const Vec3 &middle : {0.5 * (place + a), 0.5 * (place + b), (place + a + b) / 3.0})
         if (!mesh.may_bound(middle)) return false;
@@ -107,62 +164,31 @@ bool may_divide(const TetComplex &mesh, Span<const Triangle> faces, Span<const s
   return true;
 }
 
+bool may_divide_boundary(const TetComplex &mesh, Span<const Triangle> faces, const Divided &divided) {
+  return faces.empty() || (!are_kept(mesh, divided.corners) && may_bound(mesh, faces, divided));
+}
+
 }  // namespace
 
 template <std::size_t m>
 bool insert_vertex(std::int32_t t, const Vec3 &p, const Values<m> &values, double snap, double least,
                    AdaptiveMesh<m> &mesh) {
-  const Tet tet = mesh.tets[std::size_t(t)];
-  double w[4], total = 0;
-  mesh.frame(t).weights(p, w);
-  std::int32_t simplex[4];
-  std::size_t size = 0;
-  Vec3 sum(0);
-  for (std::size_t k = 0; k < 4; k++) {
-    if (w[k] < snap) continue;
-    simplex[size++] = tet[k];
-    sum += w[k] * mesh.points[std::size_t(tet[k])];
-    total += w[k];
+  const Divided divided = divided_at(mesh, t, p, snap);
+  if (divided.corners.size() < 2 || is_touching_edge(mesh, divided.corners)) return false;
+  const Division division(mesh, t, divided.corners, mesh.memory());
+  if (!may_divide_boundary(mesh, division.faces, divided)) return false;
+  mesh.points.push_back(divided.place);
+  const auto is_sound = [&](const Tet &part) { return mesh.is_sound(part, least); };
+  if (!std::all_of(division.fresh.begin(), division.fresh.end(), is_sound)) {
+    mesh.points.pop_back();
+    return false;
   }
-  if (size < 2) return false;
-  // Where the solid touches itself along an edge, not all of its tets are neighbours.
-  if (size == 2 && mesh.fixed[std::size_t(simplex[0])] == touching && mesh.fixed[std::size_t(simplex[1])] == touching)
-    return false;
-  Array<std::int32_t> old(&mesh.memory()), made(&mesh.memory());
-  Array<Tet> fresh(&mesh.memory());
-  Array<Triangle> faces(&mesh.memory());  // of the boundary
-  mesh.tets_with(t, simplex, size, old);
-  const auto v = std::int32_t(mesh.points.size());
-  for (std::int32_t whole : old)
-    for (std::size_t k = 0; k < 4; k++) {
-      Tet part = mesh.tets[std::size_t(whole)];
-      if (std::find(simplex, simplex + size, part[k]) == simplex + size) {
-        if (mesh.neighbours[std::size_t(whole)][k] < 0)
-          faces.push_back({part[std::size_t(tet_face[k][0])], part[std::size_t(tet_face[k][1])],
-                           part[std::size_t(tet_face[k][2])]});
-        continue;
-      }
-      part[k] = v;
-      fresh.push_back(part);
-    }
-  const bool on_boundary = !faces.empty();
-  // The faces among vertices that the host keeps stay, so that partitions with kept interfaces go on fitting.
-  if (on_boundary &&
-      std::all_of(simplex, simplex + size, [&](std::int32_t u) { return (mesh.kept[std::size_t(u)] & ~held) != 0; }))
-    return false;
-  const Vec3 place = size == 4 ? p : sum / total;
-  if (on_boundary && !may_divide(mesh, faces, {simplex, size}, place)) return false;
-  mesh.points.push_back(place);
-  for (const Tet &part : fresh)
-    if (!mesh.is_sound(part, least)) {
-      mesh.points.pop_back();
-      return false;
-    }
-  mesh.values.push_back(carried_along(mesh, t, p, values, place));
-  mesh.fixed.push_back(on_boundary);
+  mesh.values.push_back(carried_along(mesh, t, p, values, divided.place));
+  mesh.fixed.push_back(!division.faces.empty());
   mesh.kept.push_back(0);
   mesh.tet_of.push_back(-1);
-  mesh.replace(old, fresh, made);
+  Array<std::int32_t> made(&mesh.memory());
+  mesh.replace(division.old, division.fresh, made);
   return true;
 }
 
