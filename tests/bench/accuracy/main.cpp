@@ -5,6 +5,7 @@
 
 #include "draw_plot.hpp"
 #include "promises.hpp"
+#include "steering.hpp"
 #include "sweep_file.hpp"
 #include "write_table.hpp"
 
@@ -18,6 +19,7 @@ struct Arguments {
   std::string out = "out/accuracy", from;
   bool promises = false;
   bench::PromiseOptions promise;
+  bool steering = false;
 };
 
 void add_options(CLI::App &app, Arguments &a) {
@@ -39,6 +41,7 @@ void add_options(CLI::App &app, Arguments &a) {
   app.add_flag("--promises", a.promises, "instead: are bounds of the error held and sizes met?");
   app.add_option("--bounds", a.promise.bounds, "of the error, parts of the range")->delimiter(',');
   app.add_option("--targets", a.promise.targets, "of the size, parts of the tets")->delimiter(',');
+  app.add_flag("--steering", a.steering, "instead: what does a second field that steers cost the first?");
   app.add_option("--from", a.from, "measures nothing: table and plot of an earlier run's JSON")->type_name("FILE");
 }
 
@@ -90,6 +93,15 @@ int check_promises(const Arguments &a) {
   return all_kept ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 
+void write_steering(const Arguments &a) {
+  bench::SteeringOptions options;
+  options.threads = a.sweep.threads;
+  bench::write_steering_head(stdout);
+  for_sets(a, [&](const std::string &name, const bench::Mesh &mesh) {
+    for (const bench::Steering &row : bench::measure_steering(mesh, options)) bench::write_steering(stdout, name, row);
+  });
+}
+
 void run(const Arguments &a) {
   if (fs::path(a.out).has_parent_path()) fs::create_directories(fs::path(a.out).parent_path());
   const std::vector<bench::Sweep> sweeps = a.from.empty() ? measure(a) : bench::read_sweeps(a.from);
@@ -109,7 +121,7 @@ int main(int argc, char **argv) {
   CLI11_PARSE(app, argc, argv);
   try {
     if (arguments.promises) return check_promises(arguments);
-    run(arguments);
+    arguments.steering ? write_steering(arguments) : run(arguments);
     return EXIT_SUCCESS;
   } catch (const std::exception &error) {
     std::fprintf(stderr, "bench_accuracy: %s\n", error.what());
