@@ -3,28 +3,14 @@
 #include <algorithm>
 #include <limits>
 
+#include "boundary_tree.hpp"
 #include "geometry.hpp"
 #include "kd_tree.hpp"
-#include "surface_distance.hpp"
 #include "whole_arrays.hpp"
 
 namespace tetlod {
 
 namespace {
-
-struct BoundaryTree {
-  BoundaryTree(const TetComplex &mesh, Job &job) : faces(faces_of(mesh, job)), tree(mesh.points, faces, job) {}
-
-  static Array<Triangle> faces_of(const TetComplex &mesh, Job &job) {
-    Array<Triangle> faces(&job.memory);
-    Array<std::int32_t> tet_of_face(&job.memory);
-    mesh.find_boundary(faces, tet_of_face);
-    return faces;
-  }
-
-  Array<Triangle> faces;
-  TriangleTree tree;
-};
 
 /// How far apart two may find what is the same.
 double rounding_of(const Array<Vec3> &points) {

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numeric>
 
+#include "boundary_tree.hpp"
 #include "kd_tree.hpp"
 #include "random_place.hpp"
 #include "sort_by_place.hpp"
-#include "surface_distance.hpp"
 #include "whole_arrays.hpp"
 
 namespace tetlod {
@@ -256,21 +256,15 @@ NearestPoint nearest_if_outside(const TetComplex &mesh, std::int32_t t, const Ve
 /// Moves the vertices that are outside to the nearest point of the boundary, into the tet there.
 template <std::size_t m>
 void project(Job &job, Array<std::int32_t> &home, AdaptiveMesh<m> &mesh) {
-  Array<Triangle> faces(&job.memory);
-  Array<std::int32_t> tet_of_face(&job.memory);
-  mesh.find_boundary(faces, tet_of_face);
-  const TriangleTree boundary(mesh.points, faces, job);
+  const BoundaryTree boundary(mesh, job);
   mesh.outside.assign(mesh.vertex_probes, 0);
   job.parallel.for_blocks(mesh.vertex_probes, block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; i++) {
-      const NearestPoint at = nearest_if_outside(mesh, home[i], mesh.probes[i].point, boundary);
+      const NearestPoint at = nearest_if_outside(mesh, home[i], mesh.probes[i].point, boundary.tree);
       if (at.triangle < 0) continue;
-      home[i] = tet_of_face[std::size_t(at.triangle)];
+      home[i] = boundary.tet_of_face[std::size_t(at.triangle)];
       mesh.outside[i] = 1;
-      mesh.probes[i].point = Vec3(0);
-      for (int k = 0; k < 3; k++)
-        mesh.probes[i].point +=
-            at.weights[k] * mesh.points[std::size_t(faces[std::size_t(at.triangle)][std::size_t(k)])];
+      mesh.probes[i].point = TriangleInSpace(mesh.points, boundary.faces[std::size_t(at.triangle)]).at(at.weights);
     }
     job.poll(0.2);
   });
