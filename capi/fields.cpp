@@ -104,6 +104,8 @@ void put(SteeringField &&field, Input &input) {
   input.steering.reserve(input.steering.size() + 1);
   forget(field.name, input.fields);
   slot_of(field.name, input.steering) = std::move(field);
+  const auto is_before = [](const SteeringField &a, const SteeringField &b) { return a.name < b.name; };
+  std::sort(input.steering.begin(), input.steering.end(), is_before);  // it is no matter which came first
 }
 
 /// For values of that type: reals go to either of theirs, integers to their own or to one that has them all.

@@ -399,7 +399,7 @@ TETLOD_API tetlod_status tetlod_clear(tetlod_context *context);
 
 /* Counts every class of defect of what is submitted (points and tets; scalars where they are), with the first culprit
  * of each. TETLOD_OK also for a bad mesh: out->status says what tetlod_run would, and tetlod_last_message why not OK.
- * TETLOD_ERR_STATE, _STRUCT_SIZE, _MEMORY_LIMIT, _CANCELLED, _TIME_LIMIT, and _ARGUMENT for counts as tetlod_run. */
+ * _STATE, _STRUCT_SIZE, _MEMORY_LIMIT, _CANCELLED, _TIME_LIMIT, _ARGUMENT for counts, fields that ride along aside. */
 TETLOD_API tetlod_status tetlod_check(tetlod_context *context, tetlod_mesh_report *out);
 /* Estimates tetlod_run_report.peak_bytes of a tetlod_run with what is submitted and the options as they are: within a
  * factor of 1.5 where the mesh is sound and its topology allows the size; two and a half times as much may be taken

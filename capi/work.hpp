@@ -33,6 +33,7 @@ void ahead_of_what_is_kept(tetlod_context &context, const Body &body) {
     if (!any_kept) throw;
   }
   context.prepared.forget(context.memory);
+  context.memory.try_again();
   body();
 }
 

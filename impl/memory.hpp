@@ -1,5 +1,6 @@
 // Where every array of the library lives: the caller's allocator behind a std::pmr resource that counts.
 #pragma once
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <memory_resource>
@@ -27,7 +28,17 @@ class Memory final : public std::pmr::memory_resource {
 
   std::size_t in_use() const noexcept { return in_use_.load(std::memory_order_relaxed); }
   std::size_t peak() const noexcept { return peak_.load(std::memory_order_relaxed); }
-  void reset_peak() noexcept { peak_.store(in_use(), std::memory_order_relaxed); }
+  void reset_peak() noexcept {
+    peak_.store(in_use(), std::memory_order_relaxed);
+    peak_before_ = 0;
+  }
+  /// The same for a new try of what found no memory: what goes by the peak goes by its own.
+  void try_again() noexcept {
+    const std::size_t of_all = peak_of_all_tries();
+    reset_peak();
+    peak_before_ = of_all;
+  }
+  std::size_t peak_of_all_tries() const noexcept { return std::max(peak_before_, peak()); }
   bool is_short() const noexcept { return short_.load(std::memory_order_relaxed); }
   /// Whether anything was refused since it was asked last.
   bool take_shortage() noexcept { return short_.exchange(false); }
@@ -51,6 +62,7 @@ class Memory final : public std::pmr::memory_resource {
   std::size_t limit_;
   std::atomic<std::size_t> in_use_{0};
   std::atomic<std::size_t> peak_{0};
+  std::size_t peak_before_ = 0;  ///< of earlier tries
   std::atomic<bool> short_{false};
 };
 

@@ -291,7 +291,7 @@ void run(const Input &input, const Options &options, Worker &worker, Prepared &p
   job.makes_do = prepared.empty();
   Pipeline(input, options, prepared, job, result).run(worker);
   result.report.hash = hash_of(result.mesh);
-  result.report.peak_bytes = job.memory.peak();
+  result.report.peak_bytes = job.memory.peak_of_all_tries();
   result.report.seconds_total = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 

@@ -15,6 +15,9 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
 
 #include "failure.hpp"
 
@@ -52,13 +55,29 @@ void move(const OutputFile &file, const std::string &from) {
   if (error) file.fail(error.message());
 }
 
-// In a folder of its own, where VTK gives both files the names that they shall have, one in the other.
+std::string contents_of(const std::string &path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+// As an attribute in XML.
+std::string quoted(const std::string &text) {
+  std::ostringstream quoted;
+  vtkXMLUtilities::EncodeString(text.c_str(), VTK_ENCODING_UTF_8, quoted, VTK_ENCODING_UTF_8, 1);
+  return '"' + quoted.str() + '"';
+}
+
+// In a folder of its own, under names that VTK neither cuts at a dot nor leaves unquoted; then the summary gets that of
+// the piece.
 void write_parts(const OutputFile &summary, const OutputFile &piece, vtkUnstructuredGrid *grid) {
   const PassingFolder folder(summary.temporary() + ".parts");
-  const std::string at = folder / std::filesystem::path(summary.path()).filename().string();
+  const std::string at = folder / "whole.pvtu", name = "\"whole_0.vtu\"";
   write_xml<vtkXMLPUnstructuredGridWriter>(summary, at, grid);
-  move(piece, piece_of(at));
-  move(summary, at);
+  move(piece, folder / "whole_0.vtu");
+  std::string text = contents_of(at);
+  const std::size_t place = text.find(name);
+  if (place == std::string::npos) summary.fail("its piece has no name");
+  summary.write(text.replace(place, name.size(), quoted(std::filesystem::path(piece.path()).filename().string())));
 }
 
 // Version 4.2 is what every reader of the format knows.

@@ -42,6 +42,35 @@ TEST_F(Reuse, MemoryThatIsLimited) {
   EXPECT_EQ(run(limited.get(), 0.9).reused_tets, 0);
 }
 
+/// What is kept is no reason to fail, whatever of it was in use as the limit was met.
+TEST_F(Reuse, ARunFitsWhereItDoesWithNothingKept) {
+  cube = Cube(6);
+  tetlod_config config = default_config();
+  const auto run = [&](tetlod_context *of) {
+    submit(of, cube);
+    return tetlod_run(of);
+  };
+  const auto run_twice = [&](bool keeps) -> tetlod_status {
+    const Context limited = make_context(config);
+    tetlod_set_real(limited.get(), TETLOD_OPT_TARGET_RATIO, 0.5);
+    new_values(0);
+    if (run(limited.get()) != TETLOD_OK) return TETLOD_ERR_MEMORY_LIMIT;
+    if (!keeps) tetlod_clear(limited.get());
+    new_values(1);
+    return run(limited.get());
+  };
+  const Context free = make_context();
+  tetlod_set_real(free.get(), TETLOD_OPT_TARGET_RATIO, 0.5);
+  ASSERT_EQ(run(free.get()), TETLOD_OK);
+  const double peak = double(report_of(free.get()).peak_bytes);
+  for (int hundredths = 80; hundredths < 130; hundredths += 4) {
+    config.memory_limit = std::uint64_t(peak * hundredths / 100);
+    if (run_twice(false) == TETLOD_OK) {
+      EXPECT_EQ(run_twice(true), TETLOD_OK) << hundredths;
+    }
+  }
+}
+
 /// A call that is no run, but takes memory as one does.
 struct Asked {
   const char *name;

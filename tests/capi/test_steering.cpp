@@ -44,6 +44,21 @@ TEST_F(Steering, WeightZeroRidesAlong) {
   EXPECT_EQ(fetch("z", 1, points_out()), carried);
 }
 
+TEST_F(Steering, ItIsNoMatterWhichCameFirst) {
+  const auto y = field_of(cube, 1, [](const Point &p, int) { return std::sin(5 * p[1]); });
+  ASSERT_EQ(steer("y", 1, y), TETLOD_OK);
+  ASSERT_EQ(steer("z", 2, z), TETLOD_OK);
+  run();
+  const auto bytes = bytes_of(context.get());
+  ASSERT_EQ(carry("y", y, 1), TETLOD_OK);  // in its place z is the first, and y the last
+  ASSERT_EQ(steer("y", 1, y), TETLOD_OK);
+  tetlod_error_report error{};
+  error.struct_size = sizeof error;
+  EXPECT_EQ(tetlod_measure_error(context.get(), 0, &error), TETLOD_OK) << "the run's input is submitted";
+  run();
+  EXPECT_EQ(bytes_of(context.get()), bytes);
+}
+
 TEST_F(Steering, AFrontThatSteersIsMuchNearer) {
   ASSERT_EQ(carry("z", z, 1), TETLOD_OK);
   run();

@@ -233,6 +233,17 @@ TEST_F(Files, ResultsMayBePartitionedFiles) {
   EXPECT_EQ(again["merged_points"], 0);
 }
 
+// VTK cuts names at their first dot, and writes them between quotes as they are.
+TEST_F(Files, APieceIsFoundWhateverItsName) {
+  write_cube(folder / "in.vtk", {});
+  for (const char *name : {"run.0.5", "a&b", "x<y", "q\"x", "it's", "x y", "x%20y"}) {
+    const std::string summary = folder / (std::string(name) + ".pvtu");
+    const Json report = run(folder / "in.vtk", summary);
+    EXPECT_TRUE(std::filesystem::exists(folder / (std::string(name) + "_0.vtu"))) << name;
+    EXPECT_EQ(run(summary, folder / "out.vtu")["tets_in"], report["tets_out"]) << name;
+  }
+}
+
 TEST_F(Files, NothingElseTakesThePlaceOfThePiece) {
   const std::string piece = folder / "small_0.vtu";
   write_cube(folder / "in.vtk", {});
