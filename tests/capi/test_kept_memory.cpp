@@ -63,7 +63,7 @@ TEST_F(Reuse, ARunFitsWhereItDoesWithNothingKept) {
   tetlod_set_real(free.get(), TETLOD_OPT_TARGET_RATIO, 0.5);
   ASSERT_EQ(run(free.get()), TETLOD_OK);
   const double peak = double(report_of(free.get()).peak_bytes);
-  for (int hundredths = 80; hundredths < 130; hundredths += 4) {
+  for (int hundredths = 84; hundredths < 110; hundredths += 4) {
     config.memory_limit = std::uint64_t(peak * hundredths / 100);
     if (run_twice(false) == TETLOD_OK) {
       EXPECT_EQ(run_twice(true), TETLOD_OK) << hundredths;
