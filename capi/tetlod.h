@@ -181,7 +181,7 @@ typedef struct tetlod_error_report {
   uint32_t struct_size; /* set by the caller; at most this many bytes are written */
   int32_t samples_per_tet;
   double rms, max;             /* at the original vertices that lie inside the result */
-  double outside;              /* share of the original vertices that lie outside the result, ignored above */
+  double outside;              /* share of those that are in no tet of it, by weights below -1e-6, ignored above */
   double rms_inner, max_inner; /* at samples inside the original tets */
   double outside_inner;        /* share of those samples that lie outside the result */
 } tetlod_error_report;

@@ -71,13 +71,14 @@ std::string quoted(const std::string &text) {
 // the piece.
 void write_parts(const OutputFile &summary, const OutputFile &piece, vtkUnstructuredGrid *grid) {
   const PassingFolder folder(summary.temporary() + ".parts");
-  const std::string at = folder / "whole.pvtu", name = "\"whole_0.vtu\"";
+  const std::string at = folder / "whole.pvtu", source = "Source=\"whole_0.vtu\"";
   write_xml<vtkXMLPUnstructuredGridWriter>(summary, at, grid);
   move(piece, folder / "whole_0.vtu");
   std::string text = contents_of(at);
-  const std::size_t place = text.find(name);
+  const std::size_t place = text.find(source);
   if (place == std::string::npos) summary.fail("its piece has no name");
-  summary.write(text.replace(place, name.size(), quoted(std::filesystem::path(piece.path()).filename().string())));
+  const std::string name = std::filesystem::path(piece.path()).filename().string();
+  summary.write(text.replace(place, source.size(), "Source=" + quoted(name)));
 }
 
 // Version 4.2 is what every reader of the format knows.
