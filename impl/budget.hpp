@@ -23,11 +23,12 @@ constexpr double small_mesh = 1e5;
 
 /// A coarse mesh by collapsing edges is more accurate; one from samples is there sooner, where the mesh is large, no
 /// thin one whose boundary takes longer, and little of it is kept. Samples do not stretch: a field that hardly changes
-/// along some direction asks for tets that do. A bound alone asks for accuracy.
+/// along some direction asks for tets that do. Vertices that the host keeps are lost near the boundary, and then all is
+/// remeshed again, with a finer one. A bound alone asks for accuracy.
 inline bool samples_sooner(const Options &options, const Report &report) {
   constexpr double little = 0.03, thin = 0.125, stretched = 0.004;
   const double tets = double(report.sound_tets()), ratio = options.asked_ratio();
-  return tets >= small_mesh && report.least_change >= stretched &&
+  return tets >= small_mesh && report.least_change >= stretched && !report.keeps_some &&
          double(report.boundary_triangles_in) <= thin * tets && ratio > 0 && ratio <= little;
 }
 

@@ -1,5 +1,6 @@
 // What a report says of a mesh, of its boundary, and of how it became coarse.
 #pragma once
+#include <algorithm>
 #include <string>
 
 #include "decimate_solid_and_check.hpp"
@@ -20,6 +21,8 @@ inline void describe_input(const Input &input, const Original &original, Report 
   report.dropped_tets = original.dropped_tets;
   report.scalar_min = original.scalar_min;
   report.scalar_max = original.scalar_max;
+  report.keeps_some =
+      std::any_of(original.flags.begin(), original.flags.end(), [](std::uint8_t of) { return of != 0; });
 }
 
 /// After describe_input().

@@ -109,6 +109,7 @@ struct Report {
   std::uint64_t peak_bytes = 0, worker_peak_bytes = 0, hash = 0;
   double scalar_min = 0, scalar_max = 0;
   double least_change = 1;   ///< least_change() of the original, of a run with a target
+  bool keeps_some = false;   ///< the host flagged vertices
   double max_deviation = 0;  ///< between the boundaries, over the diagonal, at samples_for() the limit
   double max_error = 0;      ///< of a run with a target: at the original vertices, over the range, of any field
   /// Taken over from earlier work: tets_in or 0, boundary_triangles_out or 0, samples whose place was known, and

@@ -63,6 +63,9 @@ TEST(SamplesSooner, WhereLittleOfALargeMeshIsKept) {
   };
   EXPECT_TRUE(at(0.02) && at(0.03));
   EXPECT_FALSE(at(0.031) || at(0.04) || at(0.1));
+  report.keeps_some = true;
+  EXPECT_FALSE(at(0.02));
+  report.keeps_some = false;
   options.max_error = 0.01;
   EXPECT_FALSE(at(0));
   report.least_change = 0.001;
