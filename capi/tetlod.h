@@ -319,8 +319,8 @@ enum {
                                    remove and insert vertices; remeshed is only what cannot be had so (a size beyond the
                                    mesh's topology, tets that overlap), and where clean-edges is set. TETLOD_EFFORT_FAST:
                                    the same without the passes; of 100,000 tets or more sooner, and to 0.03 or less, if
-                                   no point is flagged, the boundary is decimated by quadrics that see the field, samples
-                                   are taken where a linear field would be wrong, both are remeshed, one pass follows */
+                                   no point is flagged, quadrics that see the field decimate the boundary, samples are
+                                   taken where a linear field would be wrong, both are remeshed, one pass follows */
   TETLOD_OPT_MAX_ERROR = 22,    /* real, "max-error": bound of the error at every original vertex, as a fraction of the
                                    values' range, for every field that steers; one that lies outside the result is
                                    compared at the nearest point of its boundary, and in tets that it is out of
