@@ -28,6 +28,13 @@ tetlod_array lent(std::int32_t type, std::size_t tuples, std::int32_t components
   return array;
 }
 
+tetlod_array viewed(tetlod_status (*view)(const tetlod_context *, tetlod_array *), const tetlod_context *context) {
+  tetlod_array array{};
+  array.struct_size = sizeof array;
+  check(view(context, &array), context);
+  return array;
+}
+
 void submit(tetlod_context *context, const Mesh &mesh) {
   const tetlod_array points = lent(TETLOD_FLOAT64, mesh.points.size(), 3, mesh.points.data());
   const tetlod_array tets = lent(TETLOD_INT32, mesh.tets.size(), 4, mesh.tets.data());

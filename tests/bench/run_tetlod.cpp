@@ -49,19 +49,8 @@ struct Views {
   tetlod_array points, tets, values;
 };
 
-Views view(tetlod_context *context) {
-  Views views{};
-  for (tetlod_array *const array : {&views.points, &views.tets, &views.values}) array->struct_size = sizeof *array;
-  check(tetlod_view_points(context, &views.points), context);
-  check(tetlod_view_tets(context, &views.tets), context);
-  check(tetlod_view_scalars(context, &views.values), context);
-  return views;
-}
-
-template <class T>
-std::vector<T> copied(const tetlod_array &array) {
-  const T *const begin = static_cast<const T *>(array.data);
-  return std::vector<T>(begin, begin + array.tuples);
+Views view(const tetlod_context *context) {
+  return {viewed(tetlod_view_points, context), viewed(tetlod_view_tets, context), viewed(tetlod_view_scalars, context)};
 }
 
 std::vector<Triangle> fetch_boundary(tetlod_context *context) {

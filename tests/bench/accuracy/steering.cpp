@@ -66,15 +66,6 @@ struct Outcome {
   double cpu;
 };
 
-template <class T>
-std::vector<T> viewed(tetlod_status (*view)(const tetlod_context *, tetlod_array *), const tetlod_context *context) {
-  tetlod_array array{};
-  array.struct_size = sizeof array;
-  check(view(context, &array), context);
-  const T *const begin = static_cast<const T *>(array.data);
-  return std::vector<T>(begin, begin + array.tuples);
-}
-
 // The second field rides along where its weight is 0.
 Outcome run(const Mesh &mesh, const Values &second, double weight, const SteeringOptions &options) {
   const Context owner = make_context();
@@ -88,9 +79,9 @@ Outcome run(const Mesh &mesh, const Values &second, double weight, const Steerin
   const Stopwatch watch;
   check(tetlod_run(context), context);
   Outcome outcome{{}, {}, watch.cost().cpu};
-  outcome.result.points = viewed<Point>(tetlod_view_points, context);
-  outcome.result.tets = viewed<Tet>(tetlod_view_tets, context);
-  outcome.result.values = viewed<double>(tetlod_view_scalars, context);
+  outcome.result.points = copied<Point>(viewed(tetlod_view_points, context));
+  outcome.result.tets = copied<Tet>(viewed(tetlod_view_tets, context));
+  outcome.result.values = copied<double>(viewed(tetlod_view_scalars, context));
   outcome.second.resize(outcome.result.points.size());
   tetlod_array room = lent(TETLOD_FLOAT64, outcome.second.size(), 1, outcome.second.data());
   check(tetlod_fetch_field(context, "second", &room), context);
