@@ -11,7 +11,7 @@
 namespace tetlod {
 
 /// The items that one thread takes at a time.
-constexpr std::size_t stretch = 1 << 14;
+constexpr std::size_t stretch = 1 << 12;
 
 /// Room for so many items, which the system gives page by page when they are touched first: that takes longer than to
 /// write to them, unless all threads touch some, each whole huge pages, which two at a time would both clear.
