@@ -1,8 +1,19 @@
 // What the boundary of a coarse mesh may lose where its vertices move after collapses, and which of them stay.
 #pragma once
 #include "mesh.hpp"
+#include "surface_distance.hpp"
 
 namespace tetlod {
+
+/// What moves of a coarse boundary go by: the original and its tree; the original vertices that stay, empty: none; and
+/// whether each of them is guarded against crossings, which takes longer. Else the boundary may come to cross itself:
+/// to be looked at.
+struct BoundaryMoves {
+  const Surface &original;
+  const TriangleTree &to_original;
+  Span<const std::uint8_t> stays;
+  bool are_guarded = false;
+};
 
 /// Of the flattest tet's shape before: no tet gets flatter.
 constexpr double flattest_part = 0.2;

@@ -80,9 +80,16 @@ Array<std::uint8_t> vertices_that_stay(const SolidOptions &options, Memory &memo
   return stay;
 }
 
+/// The least distance that is lowered, the most tets that it may come to, and whether crossings are guarded against.
+struct Lowering {
+  double least;
+  std::int64_t most;
+  bool is_guarded = false;
+};
+
 /// Takes the boundary back to where it is farthest off, if a least distance is given from there on, else outward before
 /// that, where the outcome is sound.
-bool lower(const OriginalSolid &original, const SolidOptions &options, double least, std::int64_t most, Job &job,
+bool lower(const OriginalSolid &original, const SolidOptions &options, const Lowering &how, Job &job,
            CoarseSolid &coarse) {
   CoarseSolid lowered(job.memory);
   lowered.mesh = coarse.mesh;
@@ -90,14 +97,22 @@ bool lower(const OriginalSolid &original, const SolidOptions &options, double le
   lowered.reused = coarse.reused;
   lowered.careful_from = coarse.careful_from;
   const Array<std::uint8_t> stay = vertices_that_stay(options, job.memory);
-  const TriangleTree &to_original = original.tree.get(job);
-  if (least == 0) move_outward(original.surface, to_original, stay, job, lowered.mesh, lowered.origin);
-  lowered.deviation =
-      lower_deviation(original.surface, to_original, stay, least, most, job, lowered.mesh, lowered.origin);
+  const BoundaryMoves by{original.surface, original.tree.get(job), stay, how.is_guarded};
+  if (how.least == 0) move_outward(by, job, lowered.mesh, lowered.origin);
+  lowered.deviation = lower_deviation(by, how.least, how.most, job, lowered.mesh, lowered.origin);
   TreeOnDemand tree;
   check(original, options, job, lowered, tree);
   const bool is_sound = lowered.is_sound;
   if (is_sound) coarse = std::move(lowered);
+  return is_sound;
+}
+
+/// Where it crosses itself else; that takes longer.
+bool lower_guarded(const OriginalSolid &original, const SolidOptions &options, Lowering how, Job &job,
+                   CoarseSolid &coarse) {
+  how.is_guarded = true;
+  bool is_sound = false;
+  attempt_in_memory(job, [&] { is_sound = lower(original, options, how, job, coarse); });
   return is_sound;
 }
 
@@ -106,15 +121,16 @@ CoarseSolid decimate_and_check(const OriginalSolid &original, const SolidOptions
   CoarseSolid coarse(job.memory);
   coarse.careful_from = options.careful_from;
   coarse.reused = decimate_solid(original, options, history, job, coarse.mesh, coarse.origin);
-  if (lowered > 0 && lower(original, options, 0, lowered, job, coarse)) return coarse;
+  if (lowered > 0 && lower(original, options, {0, lowered}, job, coarse)) return coarse;
   TreeOnDemand tree;
   check(original, options, job, coarse, tree);
-  if (!coarse.is_sound) return coarse;
+  if (!coarse.is_sound || (lowered > 0 && lower_guarded(original, options, {0, lowered}, job, coarse))) return coarse;
   coarse.deviation = largest_deviation(original.surface, original.tree, coarse.surface, std::move(tree),
                                        samples_for(options.max_deviation), job);
   const double far = far_off * box_of(original.surface.points).diagonal();
+  const Lowering back{far / 2, std::int64_t(coarse.mesh.tets.size())};
   if (lowered == 0 && options.max_deviation <= 0 && coarse.deviation > far)
-    lower(original, options, far / 2, std::int64_t(coarse.mesh.tets.size()), job, coarse);
+    lower(original, options, back, job, coarse) || lower_guarded(original, options, back, job, coarse);
   return coarse;
 }
 

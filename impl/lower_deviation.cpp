@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "boundary_distances.hpp"
-#include "boundary_moves.hpp"
+#include "contact_guard.hpp"
 #include "nearest_in_star.hpp"
 #include "remesh_checks.hpp"
 #include "replace_simplices.hpp"
@@ -35,18 +36,19 @@ struct Change {
 
 class DeviationLowering {
  public:
-  DeviationLowering(const Surface &original, const TriangleTree &to_original, Span<const std::uint8_t> stays, Job &job,
-                    TetMesh &mesh, Array<std::int32_t> &origin)
-      : original_(original),
-        stays_(stays),
+  DeviationLowering(const BoundaryMoves &by, Job &job, TetMesh &mesh, Array<std::int32_t> &origin)
+      : original_(by.original),
+        stays_(by.stays),
         job_(job),
         mesh_(mesh),
         origin_(origin),
-        distances_(original, to_original, mesh, origin, job),
+        distances_(original_, by.to_original, mesh, origin, job),
         touched_(&job.memory),
         change_(job.memory),
-        volume6_(6 * enclosed_volume(original.points, original.triangles).value),
-        excess6_(6 * enclosed_volume(mesh.points, mesh.boundary).value - volume6_) {}
+        volume6_(6 * enclosed_volume(original_.points, original_.triangles).value),
+        excess6_(6 * enclosed_volume(mesh.points, mesh.boundary).value - volume6_) {
+    if (by.are_guarded) guard_.emplace(mesh.points, mesh.boundary, job);
+  }
 
   double run(double least, std::int64_t most) {
     least_ = least;
@@ -202,7 +204,8 @@ class DeviationLowering {
   bool suits(const Aim &aim, const Goal &goal) {
     job_.poll(1);
     return aim.distance() <= goal.limit && are_sound() && keeps_volume() &&
-           distances_.suit(change_.triangles, change_.fresh_triangles, goal);
+           distances_.suit(change_.triangles, change_.fresh_triangles, goal) &&
+           !(guard_ && guard_->is_met(change_.triangles, change_.fresh_triangles));
   }
 
   bool are_sound() const {
@@ -224,6 +227,7 @@ class DeviationLowering {
       for (std::int32_t corner : t) touched_[std::size_t(corner)] = 1;
     put(change_.tets, change_.fresh_tets, mesh_.tets);
     put(change_.triangles, change_.fresh_triangles, mesh_.boundary);
+    if (guard_) guard_->take(change_.triangles);
     distances_.take(change_.triangles);
     distances_.take(v, aim);
   }
@@ -234,6 +238,7 @@ class DeviationLowering {
   TetMesh &mesh_;
   Array<std::int32_t> &origin_;
   BoundaryDistances distances_;
+  std::optional<ContactGuard> guard_;
   double least_ = 0;                                        // distance that is served
   std::size_t most_ = 0;                                    // tets
   const StarLists *tets_ = nullptr, *triangles_ = nullptr;  // as the sweep began
@@ -244,9 +249,9 @@ class DeviationLowering {
 
 }  // namespace
 
-double lower_deviation(const Surface &original, const TriangleTree &to_original, Span<const std::uint8_t> stays,
-                       double least, std::int64_t most, Job &job, TetMesh &mesh, Array<std::int32_t> &origin) {
-  return DeviationLowering(original, to_original, stays, job, mesh, origin).run(least, most);
+double lower_deviation(const BoundaryMoves &by, double least, std::int64_t most, Job &job, TetMesh &mesh,
+                       Array<std::int32_t> &origin) {
+  return DeviationLowering(by, job, mesh, origin).run(least, most);
 }
 
 }  // namespace tetlod

@@ -4,10 +4,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "boundary_distances.hpp"
-#include "boundary_moves.hpp"
 #include "cholesky.hpp"
+#include "contact_guard.hpp"
 #include "remesh_checks.hpp"
 #include "star_lists.hpp"
 #include "tet_frame.hpp"
@@ -63,28 +64,53 @@ std::array<double, most_fields> ranges_of(Span<const double> values, std::size_t
   return ranges;
 }
 
+/// The triangles of the mesh's boundary while their corners move.
+class GuardOfCorners {
+ public:
+  GuardOfCorners(const TetMesh &mesh, Job &job)
+      : triangles_(mesh.boundary),
+        contacts_(mesh.points, mesh.boundary, job),
+        lists_(Span<const Triangle>(mesh.boundary), mesh.points.size(), job),
+        fresh_(&job.memory) {}
+
+  /// Whether those of vertex v, where it is now, meet others.
+  bool is_met(std::int32_t v) {
+    fresh_.clear();
+    for (std::int32_t t : lists_.of(v)) fresh_.push_back(triangles_[std::size_t(t)]);
+    return contacts_.is_met(lists_.of(v), fresh_);
+  }
+  void take(std::int32_t v) { contacts_.take(lists_.of(v)); }
+
+ private:
+  const Array<Triangle> &triangles_;
+  ContactGuard contacts_;
+  StarLists lists_;
+  Array<Triangle> fresh_;
+};
+
 class OutwardMoves {
  public:
-  OutwardMoves(const Surface &original, const TriangleTree &to_original, Job &job, TetMesh &mesh)
-      : original_(original),
-        to_original_(to_original),
+  OutwardMoves(const BoundaryMoves &by, Job &job, TetMesh &mesh)
+      : by_(by),
+        original_(by.original),
         job_(job),
         mesh_(mesh),
-        of_rounding_(distance_of_rounding(original)),
-        room6_((1 + most_volume) * 6 * enclosed_volume(original.points, original.triangles).value -
+        of_rounding_(distance_of_rounding(original_)),
+        room6_((1 + most_volume) * 6 * enclosed_volume(original_.points, original_.triangles).value -
                6 * enclosed_volume(mesh.points, mesh.boundary).value),
-        ranges_(ranges_of(mesh.scalars, original.fields)),
+        ranges_(ranges_of(mesh.scalars, original_.fields)),
         evidence_(mesh.points.size(), Evidence(), &job.memory) {
     gather();
+    if (by.are_guarded) guard_.emplace(mesh, job);
   }
 
-  void make(Span<const std::uint8_t> stays, Array<std::int32_t> &origin) {
+  void make(Array<std::int32_t> &origin) {
     const StarLists tets(Span<const Tet>(mesh_.tets), mesh_.points.size(), job_);
     for (std::size_t v = 0; v < evidence_.size(); v++) {
       if (v % many == 0) job_.poll(1);
       const Vec3 step = evidence_[v].step();
-      if (!(glm::length(step) > of_rounding_) || stays_there(v, origin, stays)) continue;
-      if (move(mesh_.points[v], step, tets.of(std::int32_t(v)))) origin[v] = -1;
+      if (!(glm::length(step) > of_rounding_) || stays_there(v, origin, by_.stays)) continue;
+      if (move(std::int32_t(v), step, tets.of(std::int32_t(v)))) origin[v] = -1;
     }
   }
 
@@ -120,8 +146,9 @@ class OutwardMoves {
     }
   }
 
-  /// As far as the tets about it, the field, the distance and the volume let it.
-  bool move(Vec3 &place, const Vec3 &step, Span<const std::int32_t> star) {
+  /// As far as the tets about it, the field, the distance, the volume and other triangles let it.
+  bool move(std::int32_t v, const Vec3 &step, Span<const std::int32_t> star) {
+    Vec3 &place = mesh_.points[std::size_t(v)];
     const Vec3 before = place;
     const Tets old = look_at(star);
     const double uneven = unevenness(step, star);
@@ -131,7 +158,8 @@ class OutwardMoves {
       place = before + part * step;
       const Tets fresh = look_at(star);
       if (!(fresh.flattest2 > least2) || fresh.volume6 - old.volume6 > room6_) continue;
-      if (to_original_.nearest(place).distance > farthest_) continue;
+      if (by_.to_original.nearest(place).distance > farthest_ || (guard_ && guard_->is_met(v))) continue;
+      if (guard_) guard_->take(v);
       room6_ -= fresh.volume6 - old.volume6;
       return true;
     }
@@ -183,21 +211,21 @@ class OutwardMoves {
     return tets;
   }
 
+  const BoundaryMoves &by_;
   const Surface &original_;
-  const TriangleTree &to_original_;
   Job &job_;
   TetMesh &mesh_;
   double of_rounding_, room6_;              // room6_: six times the volume that may be gained
   double farthest_ = 0;                     // of an original vertex, from the mesh
   std::array<double, most_fields> ranges_;  // of the mesh's fields
   Array<Evidence> evidence_;                // of each vertex of the mesh
+  std::optional<GuardOfCorners> guard_;
 };
 
 }  // namespace
 
-void move_outward(const Surface &original, const TriangleTree &to_original, Span<const std::uint8_t> stays, Job &job,
-                  TetMesh &mesh, Array<std::int32_t> &origin) {
-  OutwardMoves(original, to_original, job, mesh).make(stays, origin);
+void move_outward(const BoundaryMoves &by, Job &job, TetMesh &mesh, Array<std::int32_t> &origin) {
+  OutwardMoves(by, job, mesh).make(origin);
 }
 
 }  // namespace tetlod

@@ -73,6 +73,13 @@ class DecimateSolid : public testing::Test {
     return failure.empty();
   }
 
+  bool crosses_itself(const TetMesh &mesh) {
+    Surface of_mesh(host.memory);
+    of_mesh.points = mesh.points;
+    of_mesh.triangles = mesh.boundary;
+    return !crossings(of_mesh, host.memory).empty();
+  }
+
   static void expect_same(const TetMesh &a, const TetMesh &b) {
     EXPECT_EQ(a.points, b.points);
     EXPECT_EQ(a.scalars, b.scalars);

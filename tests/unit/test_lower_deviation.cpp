@@ -20,8 +20,8 @@ class LowerDeviation : public DecimateSolid {
     origin.assign(mesh.points.size(), 0);
     for (std::size_t v = 0; v < origin.size(); v++)
       origin[v] = mesh.points[v] == original.points[v] || is_kept(v) ? std::int32_t(v) : -1;
-    return lower_deviation(surface, tree.get(host.job), {stays.data(), stays.size()}, least, most, host.job, mesh,
-                           origin);
+    return lower_deviation({surface, tree.get(host.job), {stays.data(), stays.size()}, guarded}, least, most, host.job,
+                           mesh, origin);
   }
 
   bool is_kept(std::size_t v) const { return !stays.empty() && stays[v]; }
@@ -51,6 +51,7 @@ class LowerDeviation : public DecimateSolid {
 
   std::vector<std::uint8_t> stays;
   double least = 0;
+  bool guarded = false;
   TetMesh mesh{host.memory};
   Array<std::int32_t> origin{&host.memory};
 };
@@ -66,6 +67,28 @@ TEST_F(LowerDeviation, AVertexThatIsOffGoesBack) {
     EXPECT_EQ(mesh.points[v], cube.points[v]);
     EXPECT_NEAR(mesh.scalars[v], cube.scalars[v], 1e-15);
     EXPECT_EQ(mesh.tets.size(), cube.tets.size());
+  }
+}
+
+/// A wall that was dented goes back, but for where one that stays was drawn out beyond it.
+TEST_F(LowerDeviation, GuardedTheBoundaryDoesNotCrossItself) {
+  Mesh cubes = kuhn_cube(2), other = cubes;
+  transform(other, [](const Vec3 &p) { return p + Vec3(1.1, 0, 0); });
+  append(cubes, other);
+  set_scalars(cubes, waves);
+  start_with(cubes);
+  const std::size_t dent = vertex_at(cubes, {1, 0.5, 0.5}), peak = vertex_at(cubes, {1.1, 0.5, 0.5});
+  stays.assign(cubes.points.size(), 0);
+  stays[peak] = 1;
+  for (bool is : {false, true}) {
+    guarded = is;
+    lower(std::int64_t(cubes.tets.size()), [&](Mesh &changed) {
+      changed.points[dent].x = 0.7;
+      changed.points[peak].x = 0.96;
+    });
+    EXPECT_EQ(crosses_itself(mesh), !guarded);
+    EXPECT_EQ(mesh.points[peak].x, 0.96);
+    EXPECT_GT(mesh.points[dent].x, 0.75);
   }
 }
 

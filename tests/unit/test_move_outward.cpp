@@ -4,6 +4,7 @@
 
 #include "decimate_solid_fixture.hpp"
 #include "move_outward.hpp"
+#include "remesh_checks.hpp"
 
 namespace tetlod {
 namespace {
@@ -32,7 +33,9 @@ class MoveOutward : public DecimateSolid {
     decimate_solid({original.view(), boundary, surface, topology, tree}, options, history, host.job, mesh, origin);
   }
 
-  void move() { move_outward(surface, tree.get(host.job), {stays.data(), stays.size()}, host.job, mesh, origin); }
+  void move(bool guarded = false) {
+    move_outward({surface, tree.get(host.job), {stays.data(), stays.size()}, guarded}, host.job, mesh, origin);
+  }
 
   /// The mesh's values become f's.
   template <class Function>
@@ -68,11 +71,7 @@ class MoveOutward : public DecimateSolid {
 
   const Vec3 &corner(const Tet &t, std::size_t k) const { return mesh.points[std::size_t(t[k])]; }
   double volume6(const Tet &t) const { return det(corner(t, 0), corner(t, 1), corner(t, 2), corner(t, 3)); }
-  double volume6() const {
-    double sum = 0;
-    for (const Tet &t : mesh.tets) sum += volume6(t);
-    return sum;
-  }
+  static double volume6(const TetMesh &of) { return 6 * enclosed_volume(of.points, of.boundary).value; }
 
   bool is_in(const Vec3 &p, const Tet &t) const {
     const Vec3 a = corner(t, 0), b = corner(t, 1), c = corner(t, 2), d = corner(t, 3);
@@ -103,11 +102,11 @@ TEST_F(MoveOutward, FewerVerticesAreOutside) {
     set_values(slope);
     const TetMesh before = mesh;
     const std::size_t outside = count_outside();
-    const double farthest = farthest_sample(), volume = volume6();
+    const double farthest = farthest_sample(), volume = volume6(mesh);
     move();
     EXPECT_LT(double(count_outside()), (ratio > 0.03 ? 0.95 : 1) * double(outside)) << ratio;
-    EXPECT_GT(volume6(), volume);
-    EXPECT_LE(volume6(), std::max(volume, 6 * 1.005 * volume_of(original)) * (1 + 1e-12));
+    EXPECT_GT(volume6(mesh), volume);
+    EXPECT_LE(volume6(mesh), std::max(volume, 6 * 1.005 * volume_of(original)) * (1 + 1e-12));
     EXPECT_EQ(mesh.tets, before.tets);
     EXPECT_EQ(mesh.boundary, before.boundary);
     for (const Tet &t : mesh.tets) EXPECT_GT(volume6(t), 0);
@@ -117,6 +116,70 @@ TEST_F(MoveOutward, FewerVerticesAreOutside) {
       EXPECT_LE(brute_nearest(surface.points, surface.triangles, mesh.points[v]).distance, farthest * (1 + 1e-12));
     }
   }
+}
+
+/// Small tets are in the way of a ball.
+class MoveOutwardAmongTets : public MoveOutward {
+ protected:
+  void start() {
+    Mesh ball_among_tets = ball(8);
+    for (int k = 0; k < 12; k++) append(ball_among_tets, tet_over(direction()));
+    set_scalars(ball_among_tets, slope);
+    start_with(ball_among_tets);
+  }
+
+ private:
+  /// With a corner just over the ball of radius 1.
+  Mesh tet_over(const Vec3 &up) {
+    const Vec3 side = glm::normalize(glm::cross(up, direction())), across = glm::cross(up, side);
+    const auto at = [&](double height, double x, double y) { return height * up + x * side + y * across; };
+    return {
+        {at(1.01, 0, 0), at(1.05, 0.02, 0), at(1.05, 0, 0.02), at(1.05, -0.02, -0.02)}, {0, 0, 0, 0}, {{0, 1, 2, 3}}};
+  }
+
+  Vec3 direction() { return glm::normalize(Vec3(normal(random), normal(random), normal(random))); }
+
+  std::mt19937_64 random{1};
+  std::normal_distribution<double> normal;
+};
+
+TEST_F(MoveOutwardAmongTets, GuardedTheBoundaryDoesNotCrossItself) {
+  std::size_t crossed = 0;
+  for (int i = 0; i < 12; i++) {
+    start();
+    coarsen(0.05);
+    if (crosses_itself(mesh)) continue;
+    const TetMesh before = mesh;
+    const Array<std::int32_t> was = origin;
+    move();
+    crossed += crosses_itself(mesh);
+    mesh = before;
+    origin = was;
+    move(true);
+    EXPECT_FALSE(crosses_itself(mesh)) << i;
+    EXPECT_NE(mesh.points, before.points) << i;
+  }
+  EXPECT_GT(crossed, 0u) << "unguarded";
+}
+
+/// Where all of it would cross, what may goes outward.
+TEST_F(MoveOutwardAmongTets, DecimationLowersAllTheSame) {
+  std::size_t crossed = 0;
+  for (int i = 0; i < 12; i++) {
+    start();
+    CoarseSolid coarse(host.memory), outward(host.memory);
+    lowered = 0;
+    ASSERT_TRUE(decimate(0.05, host, coarse)) << failure;
+    lowered = std::int64_t(coarse.mesh.tets.size());
+    ASSERT_TRUE(decimate(0.05, host, outward)) << failure;
+    expect_sound(outward);
+    EXPECT_LT(outward.deviation, coarse.deviation) << i;
+    mesh = coarse.mesh;
+    origin = coarse.origin;
+    move();
+    crossed += crosses_itself(mesh);
+  }
+  EXPECT_GT(crossed, 0u);
 }
 
 TEST_F(MoveOutward, WhereAFieldJumpsItStays) {
