@@ -30,12 +30,13 @@ bool ContactGuard::is_met(Span<const std::int32_t> old, Span<const Triangle> fre
 }
 
 bool ContactGuard::meets_one_that_stays(const Triangle &fresh, Span<const std::int32_t> old) const {
+  const Box box = box_of(points_, fresh);
   const auto meets = [&](std::int32_t t) {
     return std::find(old.begin(), old.end(), t) == old.end() && !are_apart(fresh, triangles_[std::size_t(t)]);
   };
-  if (tree_.any_overlap(box_of(points_, fresh), meets)) return true;
+  if (tree_.any_overlap(box, meets)) return true;
   for (auto t = in_tree_; t < std::int32_t(triangles_.size()); t++)
-    if (meets(t)) return true;
+    if (overlap(box, box_of(points_, triangles_[std::size_t(t)])) && meets(t)) return true;
   return false;
 }
 
