@@ -4,17 +4,10 @@ namespace tetlod {
 
 namespace {
 
-/// Vertices that a block must have, so that most of them are inside; of a large mesh one of two, which has fewer cuts,
-/// may have fewer, as threads would be idle long.
-constexpr std::size_t least_in_block = 4000, least_of_two = 2000, large_mesh = 16000;
+/// Vertices that a block must have, so that most of them are inside.
+constexpr std::size_t least_in_block = 4000;
 /// Where the cuts go, as shares of the vertices, in one round after another.
 constexpr double shares[] = {0.5, 0.4, 0.6, 0.45, 0.55, 0.35, 0.65};
-
-std::size_t blocks_for(std::size_t vertices, std::size_t of_mesh) {
-  std::size_t blocks = SolidBlocks::most;
-  while (blocks > 1 && vertices < blocks * least_in_block) blocks /= 2;
-  return blocks == 1 && of_mesh >= large_mesh && vertices >= 2 * least_of_two ? 2 : blocks;
-}
 
 /// Halves of halves of halves, each across its longest side; the first cut is number 1, those below i are 2 i, 2 i + 1.
 class Cuts {
@@ -52,7 +45,8 @@ class Cuts {
 void SolidBlocks::cut(const SolidComplex &mesh, Span<const std::int32_t> left, int round, std::size_t most_blocks,
                       Job &job) {
   constexpr std::size_t enough = 4096;
-  count_ = std::min(most_blocks, blocks_for(left.size(), mesh.measures.vertices));
+  count_ = 1;
+  while (2 * count_ <= most_blocks && left.size() >= 2 * count_ * least_in_block) count_ *= 2;
   if (count_ == 1) return;
   Array<Vec3> sample(&job.memory);
   for (std::size_t i = 0; i < left.size(); i += left.size() / enough + 1) sample.push_back(mesh.point(left[i]));
