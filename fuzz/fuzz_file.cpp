@@ -267,7 +267,7 @@ void run(tetlod::Context &context, const tetlod_vtk::OriginalArrays &arrays) {
   const tetlod::Counts counts = context.fetch_counts();
   for (const tetlod_vtk::CarriedArray &other : arrays.others) {
     const auto made = tetlod_vtk::fetch_carried(context, other, counts.points);
-    DEMAND(made->GetNumberOfTuples() == counts.points, "array %s is in the result", other.key().c_str());
+    DEMAND(made->GetNumberOfTuples() == counts.points, "array %s is in the result", other.name());
   }
   const auto of_cells = tetlod_vtk::fetch_all(context, arrays.of_cells, counts.tets);
   for (std::size_t i = 0; i < of_cells.size(); i++)

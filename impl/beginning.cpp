@@ -20,7 +20,7 @@ void Beginning::begin() {
 }
 
 void Beginning::tell_unequal_fields() const {
-  const std::string &name = input_.steering[original_.unequal_field - 1].name;
+  const std::string &name = input_.name_of_steering(original_.unequal_field);
   const std::string fields = text("field %.100s: its range and the scalars', %s, are too far apart", name.c_str(),
                                   number(original_.scalar_max - original_.scalar_min).c_str());
   if (options_.max_error > 0) throw Error(Status::max_error, "max-error cannot be held for " + fields);

@@ -89,6 +89,7 @@ struct Input {
   std::vector<SteeringField> steering;  ///< less than most_fields; names are none of those
 
   std::size_t steering_fields() const { return 1 + steering.size(); }  ///< with the scalars
+  const std::string &name_of_steering(std::size_t k) const { return k == 0 ? scalars_name : steering[k - 1].name; }
 };
 
 /// The rows of the paper's Table 2. Seconds by Stage.

@@ -147,8 +147,9 @@ Span<const Tet> read_tets(const Input &input, Job &job, Array<Tet> &copy) {
 }
 
 [[noreturn]] void refuse_value(const Input &input, const MeshView &mesh, std::size_t v, std::size_t field) {
-  const std::string of_field = field > 0 ? "of field " + input.steering[field - 1].name.substr(0, 100) + " " : "";
-  fail(Status::mesh_nonfinite, "the value %sof vertex %zu is %s", of_field.c_str(), v + std::size_t(input.index_base),
+  const std::string name = input.name_of_steering(field).substr(0, 100), of_field = "of field " + name + " ";
+  fail(Status::mesh_nonfinite, "the value %sof vertex %zu is %s (on-nonfinite: error)",
+       name.empty() ? "" : of_field.c_str(), v + std::size_t(input.index_base),
        number(mesh.scalars[v * mesh.fields + field]).c_str());
 }
 

@@ -3,7 +3,7 @@
  * Steady heat conduction in a block with a hot spherical cavity, a cold wall and a heat source; then libtetlod, on the
  * solver's own arrays. Prints the paper's Table 2 and writes PREFIX.vtu and PREFIX_small.vtu.
  *
- *     heat_in_situ [SIZE [RHO [SIGMA [PREFIX]]]]        20 (288,000 tets), 0.03, 0.1, heat
+ *     heat_in_situ [SIZE [RATIO [PREFIX]]]        20 (288,000 tets), 0.05 of them, heat
  */
 #define _POSIX_C_SOURCE 199309L
 
@@ -22,7 +22,7 @@
 
 typedef struct arguments {
   int size;
-  double rho, sigma;
+  double ratio;
   const char *prefix;
 } arguments;
 
@@ -109,7 +109,7 @@ static int simplify(tetlod_context *lod, const arguments *args, const cavity_mes
   tetlod_array points = array_of(TETLOD_FLOAT64, mesh->points, 3, mesh->xyz);
   tetlod_array tets = array_of(TETLOD_INT32, mesh->tets, 4, mesh->corners);
   tetlod_array values = array_of(TETLOD_FLOAT64, mesh->points, 1, f->temperature);
-  if (tetlod_set_rho(lod, args->rho) != TETLOD_OK || tetlod_set_sigma(lod, args->sigma) != TETLOD_OK ||
+  if (tetlod_set_real(lod, TETLOD_OPT_TARGET_RATIO, args->ratio) != TETLOD_OK ||
       tetlod_set_int(lod, TETLOD_OPT_THREADS, 0) != TETLOD_OK || /* all cores */
       tetlod_submit_points(lod, &points) != TETLOD_OK || tetlod_submit_tets(lod, &tets, 0) != TETLOD_OK ||
       tetlod_submit_scalars(lod, "temperature", &values) != TETLOD_OK || tetlod_run(lod) != TETLOD_OK) {
@@ -186,19 +186,18 @@ static int read_number(const char *text, double *number) {
 
 static int read_arguments(int argc, char **argv, arguments *args) {
   double size = args->size;
-  if (argc > 5) return -1;
+  if (argc > 4) return -1;
   if (argc > 1 && read_number(argv[1], &size) != 0) return -1;
-  if (argc > 2 && read_number(argv[2], &args->rho) != 0) return -1;
-  if (argc > 3 && read_number(argv[3], &args->sigma) != 0) return -1;
-  if (argc > 4) args->prefix = argv[4];
+  if (argc > 2 && read_number(argv[2], &args->ratio) != 0) return -1;
+  if (argc > 3) args->prefix = argv[3];
   args->size = size >= 2 && size <= 200 ? (int)size : 0;
   return args->size == 0 ? -1 : 0;
 }
 
 int main(int argc, char **argv) {
-  arguments args = {20, 0.03, 0.1, "heat"};
+  arguments args = {20, 0.05, "heat"};
   if (read_arguments(argc, argv, &args) != 0) {
-    fprintf(stderr, "usage: heat_in_situ [SIZE [RHO [SIGMA [PREFIX]]]], SIZE 2 to 200\n");
+    fprintf(stderr, "usage: heat_in_situ [SIZE [RATIO [PREFIX]]], SIZE 2 to 200\n");
     return 2;
   }
   return run(&args) == 0 ? EXIT_SUCCESS : EXIT_FAILURE;

@@ -12,14 +12,14 @@ static tetlod_status simplify(int64_t n, double *xyz, int64_t m, int32_t *corner
   int64_t points_left = 0, tets_left = 0;
   char message[256] = "";
   tetlod_context *lod = NULL;
-  tetlod_create(NULL, &lod);
-  tetlod_set_real(lod, TETLOD_OPT_TARGET_RATIO, 0.1); /* or, as published: tetlod_set_rho, tetlod_set_sigma */
-  tetlod_submit_points(lod, &points);
-  tetlod_submit_tets(lod, &tets, 0);
-  tetlod_submit_scalars(lod, "density", &values);
-  tetlod_status status = tetlod_run(lod);
-  if (status != TETLOD_OK) tetlod_last_message(lod, message, sizeof message); /* of the last call */
-  tetlod_fetch_counts(lod, &points_left, &tets_left, NULL); /* then tetlod_fetch_points, _tets, _scalars */
+  tetlod_status status = tetlod_create(NULL, &lod);
+  if (!status) status = tetlod_set_real(lod, TETLOD_OPT_TARGET_RATIO, 0.1); /* as published: tetlod_set_rho, _sigma */
+  if (!status) status = tetlod_submit_points(lod, &points);
+  if (!status) status = tetlod_submit_tets(lod, &tets, 0);
+  if (!status) status = tetlod_submit_scalars(lod, "density", &values);
+  if (!status) status = tetlod_run(lod);
+  if (!status) status = tetlod_fetch_counts(lod, &points_left, &tets_left, NULL); /* then tetlod_fetch_points, ... */
+  if (status) tetlod_last_message(lod, message, sizeof message);                  /* of the last call that failed */
   tetlod_destroy(lod);
   printf("%lld of %lld tets %s\n", (long long)tets_left, (long long)m, message);
   return status;

@@ -39,6 +39,12 @@ static void real_row(FILE *to, const char *text, double value, const char *unit)
   fprintf(to, "%*.3f%s%s\n", kNumberWidth, value, unit[0] != '\0' ? " " : "", unit);
 }
 
+/* Bounds may be very small. */
+static void share_of(FILE *to, const char *text, double share, const char *of) {
+  label(to, text);
+  fprintf(to, "%*.4g %% of %s\n", kNumberWidth, 100.0 * share, of);
+}
+
 static void error_row(FILE *to, const char *text, double value) {
   label(to, text);
   fprintf(to, "%*.4f %%\n", kNumberWidth, 100.0 * value);
@@ -50,9 +56,9 @@ static void target_parameters(FILE *to, const tetlod_context *context, double ra
   int64_t effort = 0;
   tetlod_get_real(context, TETLOD_OPT_MAX_DEVIATION, &deviation);
   tetlod_get_int(context, TETLOD_OPT_EFFORT, &effort);
-  if (ratio > 0) real_row(to, "target ratio", 100.0 * ratio, "% of tets");
-  if (bound > 0) real_row(to, "largest error allowed", 100.0 * bound, "% of range");
-  if (deviation > 0) real_row(to, "largest deviation allowed", 100.0 * deviation, "% of diagonal");
+  if (ratio > 0) share_of(to, "target ratio", ratio, "the sound tets");
+  if (bound > 0) share_of(to, "largest error allowed", bound, "range");
+  if (deviation > 0) share_of(to, "largest deviation allowed", deviation, "diagonal");
   label(to, "effort");
   fprintf(to, "%*s\n", kNumberWidth, effort == TETLOD_EFFORT_FAST ? "fast" : "accurate");
 }
@@ -63,10 +69,10 @@ static void published_parameters(FILE *to, const tetlod_context *context) {
   tetlod_get_real(context, TETLOD_OPT_RHO, &rho);
   tetlod_get_real(context, TETLOD_OPT_LAMBDA, &lambda);
   tetlod_get_real(context, TETLOD_OPT_MIN_DISTANCE, &distance);
-  real_row(to, "boundary LOD (sigma)", 100.0 * sigma, "% of edges");
-  real_row(to, "clustering (rho)", 100.0 * rho, "% of range");
+  share_of(to, "boundary LOD (sigma)", sigma, "edges");
+  share_of(to, "clustering (rho)", rho, "range");
   real_row(to, "shape weight (lambda)", lambda, "");
-  real_row(to, "minimum distance", 100.0 * distance, "% of diagonal");
+  share_of(to, "minimum distance", distance, "diagonal");
 }
 
 /* Returns whether rho and sigma have no meaning. */

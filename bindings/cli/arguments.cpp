@@ -27,12 +27,12 @@ constexpr NumberOption kNumberOptions[] = {
     {"merge-tolerance", "points this near become one, fraction of the diagonal"},
     {"clean-edges", "boundary edges shorter than this are collapsed first, fraction of the diagonal"},
     {"target-ratio",
-     "tets kept, fraction of the original's, with less error than the paper's method; 0: by rho and sigma"},
+     "tets kept, fraction of the original's sound ones, with less error than the paper's method; 0: by rho and sigma"},
     {"effort", "with a target ratio or a largest error: 1 is fast, 2 accurate"},
     {"remesh", "0: by collapses alone, tetlod-remesh is never started; takes target-ratio or max-error"},
     {"max-error", "largest error allowed at the original vertices, fraction of the range; 0: no limit"},
     {"max-deviation", "largest distance allowed between the boundaries, fraction of the diagonal; 0: no limit"},
-    {"threads", "0: one a core, which is what the tool does unless told; the library's own default:"},
+    {"threads", "how many at most; 0, the tool's default: one a core; the library's:"},
     {"seed", "of the points at which the error is measured"},
     {"time-limit", "seconds for the simplification, 0: none"},
 };
@@ -121,7 +121,15 @@ std::pair<std::string, double> weighted_name(const std::string &text) {
   const std::size_t colon = text.rfind(':');
   double weight = 1;
   if (colon == std::string::npos || !CLI::detail::lexical_cast(text.substr(colon + 1), weight)) return {text, 1};
+  if (colon == 0) throw CLI::ValidationError("--steer", "'" + text + "' is a weight without a name");
   return {text.substr(0, colon), weight};
+}
+
+void add_steering(const std::string &text, Arguments &arguments) {
+  const auto field = weighted_name(text);
+  for (const auto &[name, weight] : arguments.steer)
+    if (name == field.first) throw CLI::ValidationError("--steer", "field '" + name + "' is given twice");
+  arguments.steer.push_back(field);
 }
 
 void add_options(CLI::App &app, Arguments &arguments) {
@@ -131,7 +139,7 @@ void add_options(CLI::App &app, Arguments &arguments) {
                  "point data that steers, vectors by their magnitude [the active scalars, else the first]")
       ->type_name("NAME");
   const auto steer = [&arguments](const std::vector<std::string> &fields) {
-    for (const std::string &field : fields) arguments.steer.push_back(weighted_name(field));
+    for (const std::string &field : fields) add_steering(field, arguments);
   };
   app.add_option_function<std::vector<std::string>>("--steer", steer,
                                                     "further point data that steers, its errors times WEIGHT [1]; a "

@@ -74,13 +74,18 @@ LentArray counted(vtkIdType count) {
   return {numbers.Get(), room_in(numbers, 1)};
 }
 
-void fetch(const tetlod::Context &context, const std::string &key, vtkDataArray &values) {
+void fetch(const tetlod::Context &context, const std::string &name, vtkDataArray &values) {
   tetlod_array room = room_in(&values, values.GetNumberOfComponents());
-  if (const auto status = tetlod_fetch_field(context.get(), key.c_str(), &room); status != TETLOD_OK)
+  if (const auto status = tetlod_fetch_field(context.get(), name.c_str(), &room); status != TETLOD_OK)
     throw tetlod::Error(status, context.last_message());
 }
 
 }  // namespace
+
+std::string name_of_none(vtkDataSetAttributes &data, std::string name) {
+  while (data.HasArray(name.c_str())) name += "_";
+  return name;
+}
 
 std::vector<CarriedArray> carried_arrays(vtkUnstructuredGrid &grid, vtkDataArray *steering,
                                          std::vector<std::string> &notes) {
@@ -93,7 +98,7 @@ std::vector<CarriedArray> carried_arrays(vtkUnstructuredGrid &grid, vtkDataArray
 
 CellArrays cell_arrays(vtkUnstructuredGrid &grid, vtkDataArray *steering, const Tets &tets,
                        std::vector<std::string> &notes) {
-  CellArrays arrays{{}, tets.cells, {}};
+  CellArrays arrays{{}, tets.cells, {}, name_of_none(*grid.GetPointData(), "tet numbers")};
   for_carried(*grid.GetCellData(), TETLOD_CELL_FIELD, steering, notes, [&](vtkDataArray *array, int attribute) {
     arrays.all.push_back({array, attribute});
   });
@@ -116,7 +121,7 @@ vtkSmartPointer<vtkDataArray> fetch_carried(const tetlod::Context &context, cons
   vtkDataArray &original = *array.original;
   const int type = array.weight > 0 ? steering_type(context, original) : type_of_means(original);
   auto fetched = array_for(original, type, points);
-  fetch(context, array.key(), *fetched);
+  fetch(context, array.name(), *fetched);
   return fetched;
 }
 
@@ -126,7 +131,7 @@ std::vector<vtkSmartPointer<vtkDataArray>> fetch_all(const tetlod::Context &cont
   if (arrays.all.empty()) return all;
   vtkNew<vtkTypeInt64Array> numbers;
   numbers->SetNumberOfValues(tets);
-  fetch(context, kTetNumbers, *numbers);
+  fetch(context, arrays.name_of_numbers, *numbers);
   for (const CellArrays::One &one : arrays.all) {
     all.push_back(array_for(*one.original, one.original->GetDataType(), tets));
     for (vtkIdType t = 0; t < tets; t++) {

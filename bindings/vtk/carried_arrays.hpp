@@ -14,9 +14,6 @@
 
 namespace tetlod_vtk {
 
-// What the library knows an array of points by: fields of cells have names of their own.
-inline std::string key_of(const std::string &name) { return "point " + name; }
-
 // Of points.
 struct CarriedArray {
   vtkSmartPointer<vtkDataArray> original;  // the grid's
@@ -24,7 +21,7 @@ struct CarriedArray {
   LentArray reals;                         // what the library gets
   double weight = 0;                       // positive: it steers
 
-  std::string key() const { return key_of(original->GetName()); }
+  const char *name() const { return original->GetName(); }  // the library's, too
 };
 
 // Of cells: the library carries the numbers of the tets, once, and values are copied as they are.
@@ -36,7 +33,11 @@ struct CellArrays {
   std::vector<One> all;
   vtkSmartPointer<vtkDataArray> cells;  // as Tets has them
   LentArray numbers;                    // of the tets; without a keeper where there are no arrays
+  std::string name_of_numbers;          // for the library: that of no array of points
 };
+
+// That name, or one like it that no array has.
+std::string name_of_none(vtkDataSetAttributes &data, std::string name);
 
 // All named arrays of numbers of points but the steering one. They become means, so integers become doubles. Ghost
 // marks and global numbers have no meaning any more. A note says which are left out: without a name, or of more than 64
@@ -57,9 +58,6 @@ int steering_type(const tetlod::Context &context, vtkDataArray &original);
 
 // The array on the context's result.
 vtkSmartPointer<vtkDataArray> fetch_carried(const tetlod::Context &context, const CarriedArray &array, int64_t points);
-
-// What the library knows the numbers of the tets by.
-constexpr char kTetNumbers[] = "tet numbers";
 
 // All of them, on the context's result.
 std::vector<vtkSmartPointer<vtkDataArray>> fetch_all(const tetlod::Context &context, const CellArrays &arrays,

@@ -49,18 +49,18 @@ vtkUnsignedCharArray *flags_array(vtkUnstructuredGrid &grid, vtkInformation *wan
 
 // One without a name gets one that no other has.
 std::string name_of(vtkDataArray &field, vtkPointData &data) {
-  std::string name = field.GetName() != nullptr ? field.GetName() : "";
-  if (!name.empty()) return name;
-  for (name = "scalars"; data.HasArray(name.c_str());) name += "_";
-  return name;
+  const bool is_named = field.GetName() != nullptr && *field.GetName() != 0;
+  return is_named ? field.GetName() : name_of_none(data, "scalars");
 }
 
 // The array of others that steers, too.
-CarriedArray &further_array(vtkUnstructuredGrid &grid, const std::string &name, std::vector<CarriedArray> &others) {
-  steering_field(grid, name);
-  for (CarriedArray &other : others)
+CarriedArray &further_array(vtkUnstructuredGrid &grid, const std::string &name, OriginalArrays &arrays) {
+  if (steering_field(grid, name) == arrays.steering)
+    throw std::runtime_error("field '" + name + "' steers already: it is the first");
+  for (CarriedArray &other : arrays.others)
     if (other.original->GetName() == name) return other;
-  throw std::runtime_error("field '" + name + "' cannot steer beside others: it is the first, or has no meaning here");
+  throw std::runtime_error("field '" + name +
+                           "' cannot steer: ghost marks and global numbers mean nothing on a result");
 }
 
 // Separate coordinates are submitted as such.
@@ -83,8 +83,8 @@ void submit_points(tetlod::Context &context, const Original &original) {
 
 void submit_other(tetlod::Context &context, const CarriedArray &other) {
   const tetlod_array *const values = &other.reals.array;
-  require(other.weight > 0 ? tetlod_submit_steering(context.get(), other.key().c_str(), other.weight, values)
-                           : tetlod_submit_field(context.get(), other.key().c_str(), TETLOD_POINT_FIELD, values),
+  require(other.weight > 0 ? tetlod_submit_steering(context.get(), other.name(), other.weight, values)
+                           : tetlod_submit_field(context.get(), other.name(), TETLOD_POINT_FIELD, values),
           context);
 }
 
@@ -108,7 +108,7 @@ Original original_of(vtkUnstructuredGrid *input, vtkInformation *steering, const
   original.arrays.others = carried_arrays(*original.grid, field, notes);
   original.arrays.of_cells = cell_arrays(*original.grid, field, original.tets, notes);
   for (const WeightedArray &array : further)
-    further_array(*original.grid, array.name, original.arrays.others).weight = array.weight;
+    further_array(*original.grid, array.name, original.arrays).weight = array.weight;
   return original;
 }
 
@@ -116,10 +116,11 @@ void submit(tetlod::Context &context, const Original &original) {
   const tetlod_array corners = room_in(original.tets.corners, 4);
   submit_points(context, original);
   require(tetlod_submit_tets(context.get(), &corners, 0), context);
-  require(tetlod_submit_scalars(context.get(), key_of(original.arrays.name).c_str(), &original.values.array), context);
+  require(tetlod_submit_scalars(context.get(), original.arrays.name.c_str(), &original.values.array), context);
   for (const CarriedArray &other : original.arrays.others) submit_other(context, other);
-  if (const LentArray &numbers = original.arrays.of_cells.numbers; numbers.keeper != nullptr)
-    require(tetlod_submit_field(context.get(), kTetNumbers, TETLOD_CELL_FIELD, &numbers.array), context);
+  if (const CellArrays &cells = original.arrays.of_cells; cells.numbers.keeper != nullptr)
+    require(tetlod_submit_field(context.get(), cells.name_of_numbers.c_str(), TETLOD_CELL_FIELD, &cells.numbers.array),
+            context);
   if (original.flags == nullptr) return;
   const tetlod_array flags = room_in(original.flags, 1);
   require(tetlod_submit_point_flags(context.get(), &flags), context);

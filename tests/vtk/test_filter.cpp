@@ -176,6 +176,27 @@ TEST_F(Filter, IntegersOfCellsAreWhatTheyWere) {
   expect_silence();
 }
 
+// The library knows the numbers of tets, by which arrays of cells are copied, by a name that no array has.
+TEST_F(Filter, AnArrayOfPointsMayHaveAnyName) {
+  const Grid grid = cube_grid();
+  for (const char *name : {"tet numbers", "tet numbers_"}) {
+    const auto copy = vtk::TakeSmartPointer(grid->GetPointData()->GetArray("other")->NewInstance());
+    copy->DeepCopy(grid->GetPointData()->GetArray("other"));
+    copy->SetName(name);
+    grid->GetPointData()->AddArray(copy);
+  }
+  filter->SetInputData(grid);
+  vtkPointData &made = *updated()->GetPointData();
+  for (const char *name : {"tet numbers", "tet numbers_"}) {
+    vtkDataArray *const carried = made.GetArray(name);
+    ASSERT_NE(carried, nullptr) << name;
+    for (vtkIdType i = 0; i < carried->GetNumberOfTuples(); i++)
+      ASSERT_EQ(carried->GetComponent(i, 0), made.GetArray("other")->GetComponent(i, 0));
+  }
+  EXPECT_TRUE(filter->GetOutput()->GetCellData()->HasArray("part"));
+  expect_silence();
+}
+
 TEST_F(Filter, WhatVTKNotesOfAnArraysValuesDoesNotStay) {
   const Grid grid = cube_grid();
   filter->SetInputData(grid);

@@ -112,7 +112,7 @@ TEST_F(Filter, AnOptionThatIsNotThereIsAnErrorToAskFor) {
 
 TEST_F(Filter, WhatSteersIsNotAskedToTwice) {
   filter->AddSteeringArray("heat");
-  expect_failure("field 'heat' cannot steer beside others: it is the first", TETLOD_ERR_ARGUMENT);
+  expect_failure("field 'heat' steers already: it is the first", TETLOD_ERR_ARGUMENT);
 }
 
 TEST_F(Filter, ThreeArraysSteerBesideTheFirst) {

@@ -65,9 +65,8 @@ contains
     copies%prefix = prefix
     copies%name = "concentration"
     call lod%create()
-    call lod%set_preset(TETLOD_PRESET_PAPER)
-    call lod%set_rho(0.1d0)
-    call lod%set_sigma(0.1d0)
+    call lod%set_preset(TETLOD_PRESET_FAST)
+    call lod%set_real(TETLOD_OPT_TARGET_RATIO, 0.03)
     call lod%submit_points(f%xyz)
     call lod%submit_tets(f%tets)
     call lod%submit_scalars(copies%name, f%concentration)
