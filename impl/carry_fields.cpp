@@ -6,12 +6,11 @@
 #include "locate.hpp"
 #include "status.hpp"
 #include "transfer.hpp"
+#include "whole_arrays.hpp"
 
 namespace tetlod {
 
 namespace {
-
-constexpr std::size_t block = 1 << 13;
 
 bool any_of_association(const Input &input, Association association) {
   return std::any_of(input.fields.begin(), input.fields.end(),
@@ -27,12 +26,10 @@ Span<const Vec3> scaled_points(const Original &original, const TetMesh &mesh, Ar
 }
 
 Array<Vec3> find_centroids(Span<const Vec3> points, Span<const Tet> tets, Job &job) {
-  Array<Vec3> centroids(tets.size(), Vec3(0), &job.memory);
-  job.parallel.for_blocks(tets.size(), block, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; t++) {
-      for (std::int32_t v : tets[t]) centroids[t] += points[std::size_t(v)];
-      centroids[t] *= 0.25;
-    }
+  Array<Vec3> centroids = array_of(tets.size(), Vec3(0), job);
+  for_each(tets.size(), job, [&](std::size_t t) {
+    for (std::int32_t v : tets[t]) centroids[t] += points[std::size_t(v)];
+    centroids[t] *= 0.25;
   });
   return centroids;
 }
@@ -42,12 +39,11 @@ Array<std::int32_t> find_sources(const Options &options, const Original &origina
                                  Span<const Vec3> centroids, Job &job) {
   Array<Place> places(&job.memory);
   locate(original.view, boundary.triangles, centroids, options.tet_leaf, job, places);
-  Array<std::int32_t> sources(&job.memory);
-  sources.reserve(places.size());
-  for (const Place &place : places) {
-    const std::int32_t tet = place.tet >= 0 ? place.tet : boundary.tet_of[std::size_t(place.triangle)];
-    sources.push_back(original.tet_number.empty() ? tet : original.tet_number[std::size_t(tet)]);
-  }
+  Array<std::int32_t> sources = array_of(places.size(), -1, job);
+  for_each(places.size(), job, [&](std::size_t i) {
+    const std::int32_t tet = places[i].tet >= 0 ? places[i].tet : boundary.tet_of[std::size_t(places[i].triangle)];
+    sources[i] = original.tet_number.empty() ? tet : original.tet_number[std::size_t(tet)];
+  });
   return sources;
 }
 

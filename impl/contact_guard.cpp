@@ -14,10 +14,7 @@ constexpr std::int64_t leaf = 4;
 
 ContactGuard::ContactGuard(const Array<Vec3> &points, const Array<Triangle> &triangles, Job &job)
     : points_(points), triangles_(triangles), in_tree_(std::int32_t(triangles.size())), tree_(job.memory) {
-  Array<Box> boxes(&job.memory);
-  boxes.reserve(triangles.size());
-  for (const Triangle &t : triangles) boxes.push_back(box_of(points, t));
-  tree_.build(std::move(boxes), leaf, job);
+  tree_.build(boxes_of(triangles.size(), job, [&](std::size_t t) { return box_of(points, triangles[t]); }), leaf, job);
 }
 
 bool ContactGuard::is_met(Span<const std::int32_t> old, Span<const Triangle> fresh) const {

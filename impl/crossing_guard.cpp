@@ -90,15 +90,11 @@ struct CrossingGuard::Other {
 
 CrossingGuard::CrossingGuard(const Array<Vec3> &points, const Array<Triangle> &triangles, Span<const std::int32_t> id,
                              Job &job)
-    : points_(points), triangles_(triangles), id_(id), job_(job), tree_(job.memory), left_(0) {
-  Array<Box> boxes(triangles.size(), Box(), &job.memory);
-  for (std::size_t t = 0; t < triangles.size(); t++) {
-    if (triangles[t][0] < 0) continue;
-    boxes[t] = box_of(points, triangles[t]);
-    left_++;
-  }
-  in_tree_ = left_;
-  tree_.build(std::move(boxes), leaf, job, 0);
+    : points_(points), triangles_(triangles), id_(id), job_(job), tree_(job.memory) {
+  const auto is_there = [](const Triangle &t) { return t[0] >= 0; };
+  left_ = in_tree_ = std::size_t(std::count_if(triangles.begin(), triangles.end(), is_there));
+  const auto box = [&](std::size_t t) { return is_there(triangles[t]) ? box_of(points, triangles[t]) : Box(); };
+  tree_.build(boxes_of(triangles.size(), job, box), leaf, job);
 }
 
 bool CrossingGuard::is_passed(const Star &star) const {

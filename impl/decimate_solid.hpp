@@ -3,6 +3,7 @@
 // size a vertex inside just moves into a neighbour, which is soon found and loses no more in the end; near it the
 // vertex that is left comes to the best place.
 #pragma once
+#include "deviation.hpp"
 #include "extract_boundary.hpp"
 #include "job.hpp"
 #include "mesh.hpp"
@@ -23,10 +24,11 @@ struct OriginalSolid {
 };
 
 struct SolidOptions {
-  std::int64_t tets = 0;     ///< how many there shall be
-  std::int64_t enough = 0;   ///< with fewer than so many it also ends where collapses get dear
-  double dearest = 0;        ///< what they may cost then, the square of a length
-  double max_deviation = 0;  ///< as in DecimateOptions
+  std::int64_t tets = 0;                    ///< how many there shall be
+  std::int64_t enough = 0;                  ///< with fewer than so many it also ends where collapses get dear
+  double dearest = 0;                       ///< what they may cost then, the square of a length
+  double max_deviation = 0;                 ///< as in DecimateOptions
+  Samples measured_at = Samples::vertices;  ///< what of the boundaries a deviation is told of
   bool hasty = false;        ///< vertices inside are removed nearer to the size, and more of them in a round
   bool holds_bound = false;  ///< what is flat gets no flatter, because a bound is to be held there
   bool may_relax = false;    ///< where little is admissible else, the boundary may get more folded than it is

@@ -125,8 +125,8 @@ CoarseSolid decimate_and_check(const OriginalSolid &original, const SolidOptions
   TreeOnDemand tree;
   check(original, options, job, coarse, tree);
   if (!coarse.is_sound || (lowered > 0 && lower_guarded(original, options, {0, lowered}, job, coarse))) return coarse;
-  coarse.deviation = largest_deviation(original.surface, original.tree, coarse.surface, std::move(tree),
-                                       samples_for(options.max_deviation), job);
+  coarse.deviation =
+      largest_deviation(original.surface, original.tree, coarse.surface, std::move(tree), options.measured_at, job);
   const double far = far_off * box_of(original.surface.points).diagonal();
   const Lowering back{far / 2, std::int64_t(coarse.mesh.tets.size())};
   if (lowered == 0 && options.max_deviation <= 0 && coarse.deviation > far)
@@ -145,7 +145,12 @@ CoarseSolid decimate_with_care(const OriginalSolid &original, SolidOptions optio
   for (options.careful_from = options.careful_from > 0 ? all : std::min(few, all); again; options.careful_from = all) {
     if (job.log) job.log(1, ("edges collapse again, with more care: " + best.wrong).c_str());
     if (!best.is_sound) best = CoarseSolid(job.memory);
-    CoarseSolid careful = decimate_and_check(original, options, lowered, history, job);
+    CoarseSolid careful(job.memory);
+    const auto attempt = [&] { careful = decimate_and_check(original, options, lowered, history, job); };
+    if (!best.is_sound)
+      attempt();
+    else if (!attempt_in_memory(job, attempt))
+      break;
     again = !careful.wrong.empty() && options.careful_from < all && (can_reach_size || !careful.is_sound);
     if (is_better(careful, best)) best = std::move(careful);
   }

@@ -22,16 +22,17 @@ struct CoarseSolid {
   bool is_sound = false;          ///< it has but the wrong size, if anything is wrong
   bool wants_care = false;        ///< its boundary is wrong, which care may avoid
   std::int64_t careful_from = 0;  ///< the care that it took, as in SolidOptions; others are likely to need it, too
-  double deviation = 0;           ///< between the boundaries, at samples_for() the limit
+  double deviation = 0;           ///< between the boundaries, at SolidOptions::measured_at
 };
 
 /// decimate_solid, with care where the boundary else comes to cross itself, which it seldom does: looking for that in
-/// every collapse takes longer. Then lower_deviation to so many tets at most, or, with lowered = 0 and no limit to the
-/// deviation, with no more and of what is far off alone, where that leaves the mesh sound. options.touching is found
-/// here. The sound outcome of fewest tets, else the last; of a given size, where the boundary is more than twice
-/// far_off away and collapses were not stuck, or could relax, one within that with hardly more tets, if there is one.
-/// What may be wrong: a tet is not positive, tets overlap, the boundary crosses itself or has another topology, solids
-/// are nested, or the size is missed by more than 1 %.
+/// every collapse takes longer. Then move_outward and lower_deviation to so many tets at most, or, with lowered = 0 and
+/// no limit to the deviation, the second alone, with no more and of what is far off, where that leaves the mesh sound;
+/// if it does not, with moves that are guarded against crossings. options.touching is found here. The sound outcome of
+/// fewest tets, else the last; of a given size, where the boundary is more than twice far_off away and collapses were
+/// not stuck, or could relax, one within that with hardly more tets, if there is one. What may be wrong: a tet is not
+/// positive, tets overlap, the boundary crosses itself or has another topology, solids are nested, or the size is
+/// missed by more than 1 %.
 CoarseSolid decimate_solid_and_check(const OriginalSolid &original, SolidOptions options, std::int64_t lowered,
                                      SolidHistory &history, Job &job);
 

@@ -11,9 +11,10 @@ constexpr std::size_t block = 256;
 
 /// visit(point, triangle), the triangle being one of those that have the point.
 template <class Visit>
-void for_samples(const Surface &surface, Samples samples, Memory &memory, const Visit &visit) {
-  Array<std::uint8_t> seen(surface.points.size(), 0, &memory);
+void for_samples(const Surface &surface, Samples samples, Job &job, const Visit &visit) {
+  Array<std::uint8_t> seen(surface.points.size(), 0, &job.memory);
   for (std::size_t t = 0; t < surface.triangles.size(); t++) {
+    if (t % 65536 == 0) job.poll(0);
     const Triangle &triangle = surface.triangles[t];
     Vec3 corner[3];
     for (std::size_t k = 0; k < 3; k++) {
@@ -50,7 +51,7 @@ double farthest(Span<const Vec3> points, std::size_t step, const TriangleTree &t
 double farthest(const Surface &from, const TriangleTree &to, Samples samples, double known, Job &job) {
   constexpr std::size_t sparse = 32;
   Array<Vec3> points(&job.memory);
-  for_samples(from, samples, job.memory, [&](const Vec3 &p, std::size_t) { points.push_back(p); });
+  for_samples(from, samples, job, [&](const Vec3 &p, std::size_t) { points.push_back(p); });
   for (std::size_t step : {sparse, std::size_t(1)}) known = farthest(points, step, to, known, job);
   return known;
 }
@@ -104,7 +105,7 @@ DeviationLimit::DeviationLimit(const Surface &original, const TriangleTree &near
   samples_.reserve(most);
   triangle_.reserve(most);
   next_.reserve(most);
-  for_samples(original, Samples::between_too, job.memory, [&](const Vec3 &p, std::size_t t) {
+  for_samples(original, Samples::between_too, job, [&](const Vec3 &p, std::size_t t) {
     next_.push_back(std::exchange(first_[t], std::int32_t(samples_.size())));
     samples_.push_back(p);
     triangle_.push_back(std::int32_t(t));

@@ -85,44 +85,54 @@ double bytes_of_refining(const Outlook &outlook) {
          outlook.results_aside * grown * bytes_of_result(outlook);
 }
 
+/// visit(v) for each vertex; of all of a large mesh that takes longer than a host is to wait.
+template <class Visit>
+void for_vertices(Span<const std::int32_t> vertices, Job &job, const Visit &visit) {
+  for (std::size_t i = 0; i < vertices.size(); i++) {
+    if (i % 65536 == 65535) job.poll(0.5);
+    visit(vertices[i]);
+  }
+}
+
 /// Largest distance of the values of some vertices from the linear function that fits them best.
-double off_linear(const MeshView &mesh, std::size_t field, Span<const std::int32_t> vertices) {
+double off_linear(const MeshView &mesh, std::size_t field, Span<const std::int32_t> vertices, Job &job) {
   const auto value_of = [&](std::int32_t v) { return mesh.scalars[std::size_t(v) * mesh.fields + field]; };
   const auto n = double(vertices.size());
   Vec3 mean(0);
   double value = 0;
-  for (std::int32_t v : vertices) {
+  for_vertices(vertices, job, [&](std::int32_t v) {
     mean += mesh.points[std::size_t(v)] / n;
     value += value_of(v) / n;
-  }
+  });
   glm::dmat3 square(0);
   Vec3 right(0);
-  for (std::int32_t v : vertices) {
+  for_vertices(vertices, job, [&](std::int32_t v) {
     const Vec3 d = mesh.points[std::size_t(v)] - mean;
     square += glm::outerProduct(d, d);
     right += (value_of(v) - value) * d;
-  }
+  });
   const double damping = 1e-6 * (square[0][0] + square[1][1] + square[2][2]);
   for (int k = 0; k < 3; k++) square[k][k] += damping;
   const Vec3 gradient = glm::inverse(square) * right;
   double worst = 0;
-  for (std::int32_t v : vertices)
+  for_vertices(vertices, job, [&](std::int32_t v) {
     worst = std::max(worst, std::abs(value_of(v) - value - glm::dot(gradient, mesh.points[std::size_t(v)] - mean)));
+  });
   return worst;
 }
 
 /// The same of all fields, as if all ranges were the first's.
-double off_linear(const MeshView &mesh, Span<const std::int32_t> vertices) {
+double off_linear(const MeshView &mesh, Span<const std::int32_t> vertices, Job &job) {
   double worst = 0;
   for (std::size_t k = 0; k < mesh.fields; k++)
-    worst = std::max(worst, mesh.scales.relative[k] * off_linear(mesh, k, vertices));
+    worst = std::max(worst, mesh.scales.relative[k] * off_linear(mesh, k, vertices, job));
   return worst;
 }
 
 /// About the longest axis, at the median.
-std::size_t halve(const MeshView &mesh, Span<std::int32_t> vertices) {
+std::size_t halve(const MeshView &mesh, Span<std::int32_t> vertices, Job &job) {
   Box box;
-  for (std::int32_t v : vertices) box.add(mesh.points[std::size_t(v)]);
+  for_vertices({vertices.data(), vertices.size()}, job, [&](std::int32_t v) { box.add(mesh.points[std::size_t(v)]); });
   const int axis = box.longest_axis();
   const std::size_t middle = vertices.size() / 2;
   std::nth_element(vertices.begin(), vertices.begin() + std::ptrdiff_t(middle), vertices.end(),
@@ -136,8 +146,8 @@ std::size_t halve(const MeshView &mesh, Span<std::int32_t> vertices) {
 std::size_t count_linear_parts(const MeshView &mesh, Span<std::int32_t> vertices, double bound, Job &job) {
   constexpr std::size_t too_few = 5;  // a linear function fits them
   job.poll(0.5);
-  if (vertices.size() < too_few || off_linear(mesh, {vertices.data(), vertices.size()}) <= bound) return 1;
-  const std::size_t middle = halve(mesh, vertices);
+  if (vertices.size() < too_few || off_linear(mesh, {vertices.data(), vertices.size()}, job) <= bound) return 1;
+  const std::size_t middle = halve(mesh, vertices, job);
   return count_linear_parts(mesh, {vertices.data(), middle}, bound, job) +
          count_linear_parts(mesh, {vertices.data() + middle, vertices.size() - middle}, bound, job);
 }

@@ -21,7 +21,7 @@ LargestError largest_error(const AdaptiveMesh<m> &mesh, Job &job);
 template <std::size_t m>
 Array<std::int32_t> hold_bound(double bound, Job &job, AdaptiveMesh<m> &mesh);
 
-/// Does the same where the error is the largest of all, until the mesh has about so many tets.
+/// Inserts original vertices where the error is the largest of all, until the mesh has about so many tets.
 template <std::size_t m>
 void lower_largest(std::int64_t tets, Job &job, AdaptiveMesh<m> &mesh);
 

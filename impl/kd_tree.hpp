@@ -5,14 +5,21 @@
 #include <cstdint>
 #include <glm/gtc/type_ptr.hpp>
 
-#include "job.hpp"
-#include "mesh.hpp"
+#include "whole_arrays.hpp"
 
 namespace tetlod {
 
 inline bool overlap(const Box &a, const Box &b) {
   return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y &&
          a.low.z <= b.high.z && b.low.z <= a.high.z;
+}
+
+/// box_of_item(i) of each of `count`.
+template <class BoxOfItem>
+Array<Box> boxes_of(std::size_t count, Job &job, const BoxOfItem &box_of_item) {
+  Array<Box> boxes = array_of(count, Box(), job);
+  for_each(count, job, [&](std::size_t i) { boxes[i] = box_of_item(i); });
+  return boxes;
 }
 
 class KdTree {
@@ -23,18 +30,23 @@ class KdTree {
   /// an empty box is in no answer.
   void build(Array<Box> &&boxes, std::int64_t leaf, Job &job, double fraction = 0) {
     const Array<Box> of_items = std::move(boxes);
-    leaf_of_.assign(of_items.size(), -1);
     leaf_ = std::int32_t(std::max<std::int64_t>(leaf, 1));
     Array<Entry> entries(&job.memory);
     entries.reserve(of_items.size());
-    for (std::size_t i = 0; i < of_items.size(); i++)
+    for (std::size_t i = 0; i < of_items.size(); i++) {
+      if (i % polled == 0) job.poll(fraction);
       if (of_items[i].low.x <= of_items[i].high.x)
         entries.push_back({of_items[i].low + of_items[i].high, std::int32_t(i)});
-    items_.resize(entries.size());
-    boxes_.resize(entries.size());
+    }
+    leaf_of_.clear();
+    items_.clear();
+    boxes_.clear();
     nodes_.clear();
+    grow(leaf_of_, of_items.size(), job, -1);
+    grow(items_, entries.size(), job);
+    grow(boxes_, entries.size(), job);
     if (entries.empty()) return;
-    nodes_.resize(std::size_t(nodes_below(std::int32_t(entries.size())).first));
+    grow(nodes_, std::size_t(nodes_below(std::int32_t(entries.size())).first), job);
     split(of_items, {entries.data(), entries.size()}, 0, 0, -1, job, fraction);
   }
 
@@ -121,7 +133,8 @@ class KdTree {
   }
 
  private:
-  static constexpr int max_depth = 128;  // twice the depth of 2^32 items halved, and more
+  static constexpr std::size_t polled = 65536;  ///< items, of what else is soon done
+  static constexpr int max_depth = 128;         // twice the depth of 2^32 items halved, and more
 
   struct Node {
     Box box;

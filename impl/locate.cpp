@@ -37,10 +37,7 @@ struct Hit {
 class PointTree {
  public:
   PointTree(const MeshView &mesh, Span<const Vec3> points, Job &job) : mesh_(mesh), points_(points), tree_(job.memory) {
-    Array<Box> boxes(&job.memory);
-    boxes.reserve(points.size());
-    for (const Vec3 &p : points) boxes.push_back(box_at(p));
-    tree_.build(std::move(boxes), 8, job);
+    tree_.build(boxes_of(points.size(), job, [&](std::size_t i) { return box_at(points[i]); }), 8, job);
   }
 
   /// The tets from `first` on have these boxes. hits: of each point.

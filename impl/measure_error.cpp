@@ -32,9 +32,8 @@ double value_in(Span<const double> scalars, std::size_t fields, const Tet &t, co
 class Field {
  public:
   Field(const TetMesh &mesh, Job &job) : mesh_(mesh), tree_(job.memory) {
-    Array<Box> boxes(mesh.tets.size(), &job.memory);
-    for (std::size_t t = 0; t < boxes.size(); t++) boxes[t] = with_rounding(box_of<4>(mesh.points, mesh.tets[t]));
-    tree_.build(std::move(boxes), 4, job);
+    const auto box = [&](std::size_t t) { return with_rounding(box_of<4>(mesh.points, mesh.tets[t])); };
+    tree_.build(boxes_of(mesh.tets.size(), job, box), 4, job);
   }
 
   bool value_at(const Vec3 &p, double &value) const {

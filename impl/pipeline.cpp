@@ -194,6 +194,7 @@ class Pipeline : private Remeshing {
     options.enough = budget_.enough;
     options.dearest = budget_.dearest;
     options.max_deviation = deviation_limit();
+    options.measured_at = samples_for(options_.max_deviation);
     options.hasty = is_hasty(options_, report_);
     options.holds_bound = options_.max_error > 0;
     options.warm_start = options_.warm_start;
@@ -215,7 +216,6 @@ class Pipeline : private Remeshing {
     mesh_ = std::move(coarse.mesh);
     if (budget_.enough > 0) budget_.tets = std::int64_t(mesh_.tets.size());
     origin_ = std::move(coarse.origin);
-    topology_ = std::move(coarse.topology);
   }
 
   double deviation_limit() const { return options_.max_deviation * original_.box.diagonal(); }
@@ -290,7 +290,7 @@ void run(const Input &input, const Options &options, Worker &worker, Prepared &p
   const auto begin = std::chrono::steady_clock::now();
   job.makes_do = prepared.empty();
   Pipeline(input, options, prepared, job, result).run(worker);
-  result.report.hash = hash_of(result.mesh);
+  result.report.hash = hash_of(result.mesh, job);
   result.report.peak_bytes = job.memory.peak_of_all_tries();
   result.report.seconds_total = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }

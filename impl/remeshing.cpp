@@ -128,13 +128,15 @@ void Remeshing::meet_target(Worker &worker) {
 }
 
 bool Remeshing::remesh_to_target(Worker &worker) {
-  decimate_and_sample();
   try {
+    decimate_and_sample();
     simplify(worker);
     meet_target(worker);
   } catch (const Error &error) {
-    const bool is_flat = error.status() == Status::mesh_degenerate, has_collapsed = ladder_ == Ladder::first_rung;
-    if (error.status() != Status::remesh && !(is_flat && has_collapsed)) throw;
+    const bool blames_boundary =
+        error.status() == Status::mesh_degenerate || error.status() == Status::mesh_intersecting;
+    const bool has_collapsed = ladder_ == Ladder::first_rung;  // to a sound mesh
+    if (error.status() != Status::remesh && !(blames_boundary && has_collapsed)) throw;
     return false;
   }
   reconstruct_field();

@@ -3,12 +3,11 @@
 #include <algorithm>
 
 #include "locate.hpp"
+#include "whole_arrays.hpp"
 
 namespace tetlod {
 
 namespace {
-
-constexpr std::size_t block = 1 << 12;
 
 /// The heaviest first, so that a vertex is 1, 0, 0, 0; what has no weight repeats it.
 void write_entry(Tet ids, std::array<double, 4> weights, std::size_t i, Stencil &stencil) {
@@ -27,17 +26,15 @@ void find_stencils(const MeshView &mesh, Span<const Triangle> boundary, Span<con
                    Job &job, Stencil &stencil) {
   Array<Place> places(&job.memory);
   locate(mesh, boundary, points, leaf, job, places);
-  stencil.ids.resize(points.size());
-  stencil.weights.resize(points.size());
-  job.parallel.for_blocks(points.size(), block, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; i++) {
-      const Place &place = places[i];
-      if (place.tet >= 0) {
-        write_entry(mesh.tets[std::size_t(place.tet)], place.weights, i, stencil);
-      } else {
-        const Triangle &t = boundary[std::size_t(place.triangle)];
-        write_entry({t[0], t[1], t[2], t[0]}, place.weights, i, stencil);
-      }
+  grow(stencil.ids, points.size(), job);
+  grow(stencil.weights, points.size(), job);
+  for_each(points.size(), job, [&](std::size_t i) {
+    const Place &place = places[i];
+    if (place.tet >= 0) {
+      write_entry(mesh.tets[std::size_t(place.tet)], place.weights, i, stencil);
+    } else {
+      const Triangle &t = boundary[std::size_t(place.triangle)];
+      write_entry({t[0], t[1], t[2], t[0]}, place.weights, i, stencil);
     }
   });
 }

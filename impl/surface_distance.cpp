@@ -17,10 +17,7 @@ double angle_between(const Vec3 &a, const Vec3 &b) { return std::atan2(glm::leng
 
 TriangleTree::TriangleTree(Span<const Vec3> points, Span<const Triangle> triangles, Job &job, std::int64_t leaf)
     : points_(points), triangles_(triangles), tree_(job.memory) {
-  Array<Box> boxes(&job.memory);
-  boxes.reserve(triangles.size());
-  for (const Triangle &t : triangles) boxes.push_back(box_of(points, t));
-  tree_.build(std::move(boxes), leaf, job);
+  tree_.build(boxes_of(triangles.size(), job, [&](std::size_t t) { return box_of(points, triangles[t]); }), leaf, job);
 }
 
 /// Of those that are no farther than the root of `most2`, which becomes the square of its distance; else -1.

@@ -31,6 +31,14 @@ class Slits : public WholeRun {
     return said;
   }
 
+  /// A comb: every fourth layer of cells across x is left out but for its back.
+  void start_with_comb(const Cell &cells) {
+    slab = kuhn_solid(cells, [](const Cell &c) { return c[0] % 4 != 3 || c[1] == 0; });
+    set_scalars(slab, [&](const Vec3 &p) {
+      return std::tanh(8 * (glm::length(p / Vec3(cells[0], cells[1], cells[2])) - 0.5));
+    });
+  }
+
   double rms() { return measure_error(input_of(slab), options, mesh(), 1, host.job).rms; }
   std::size_t tets() const { return slab.tets.size(); }
 
@@ -68,6 +76,50 @@ TEST_F(Slits, WhatAMemoryLimitRefusesIsLeftOut) {
       EXPECT_NE(said.find("left out"), said.npos) << ratio << ' ' << part << '\n' << said;
     }
     EXPECT_THROW(simplify_within(std::size_t(0.2 * peak)), Error);
+  }
+}
+
+/// As without, where collapses were made again within a limit of their own.
+TEST_F(Slits, HowFarOffTheyAreIsToldOfVertices) {
+  options.effort = effort_fast;
+  for (const auto &[cells, ratio, bound] : {std::tuple(Cell{9, 3, 5}, 0.06, 0.0), {Cell{7, 7, 1}, 0.0, 0.1}}) {
+    start_with_comb(cells);
+    options.target_ratio = ratio;
+    options.max_error = bound;
+    simplify(slab);
+    const Surface before = surface_of(slab, host.job), after = surface_of(copy_of_result(), host.job);
+    TreeOnDemand tree(before);
+    const auto largest = [&](Samples samples) {
+      return largest_deviation(before, tree, after, TreeOnDemand(after), samples, host.job);
+    };
+    const double told = report().max_deviation * box_of(before.points).diagonal(),
+                 of_vertices = largest(Samples::vertices);
+    EXPECT_NEAR(told, of_vertices, 1e-12 * told);
+    EXPECT_GT(largest(Samples::between_too), 1.01 * of_vertices) << "else this tells nothing";
+  }
+}
+
+/// What cannot be remeshed, as teeth cross each other, collapses can serve: they end before the size, in a sound mesh.
+TEST_F(Slits, CollapsesServeWhereTeethCross) {
+  start_with_comb({11, 3, 3});
+  const auto tip = std::find(slab.points.begin(), slab.points.end(), Vec3(7, 3, 3));
+  ASSERT_NE(tip, slab.points.end());
+  tip->x += 2;
+  std::vector<std::uint8_t> flags;
+  for (const Vec3 &p : slab.points) flags.push_back(p.x < 3.3 ? keep_vertex : 0);
+  Input input = input_of(slab);
+  input.flags = strided(flags.data(), flags.size(), 1, 1, ElementType::uint8);
+  options.target_ratio = 0.06;
+  std::size_t by_collapses_alone = 0;
+  for (const bool remeshes : {false, true}) {
+    options.remesh = remeshes;
+    result = Result(host.memory);
+    ASSERT_NO_THROW(run(input, options, worker, host.job, result));
+    if (!remeshes) by_collapses_alone = mesh().tets.size();
+    EXPECT_EQ(mesh().tets.size(), by_collapses_alone);
+    EXPECT_GT(double(by_collapses_alone), 0.1 * double(tets()));
+    const auto at = [&](std::int32_t v) { return mesh().points[std::size_t(v)]; };
+    for (const Tet &t : mesh().tets) EXPECT_GT(det(at(t[0]), at(t[1]), at(t[2]), at(t[3])), 0);
   }
 }
 

@@ -27,6 +27,7 @@ class SolidDeviation : public DecimateSolid {
 TEST_F(SolidDeviation, StaysWithinItsLimit) {
   start_with_waves(10);
   CoarseSolid free(host.memory);
+  options.measured_at = Samples::between_too;
   ASSERT_TRUE(decimate(0.2, host, free));
   for (double part : {0.5, 0.3}) {
     options.max_deviation = part * free.deviation;
