@@ -9,12 +9,20 @@ namespace tetlod {
 namespace {
 
 constexpr std::int64_t leaf = 4;
+/// Looking at so many triangles that came later takes about as long as the tree.
+constexpr std::size_t most_late = 1024;
 
 }  // namespace
 
 ContactGuard::ContactGuard(const Array<Vec3> &points, const Array<Triangle> &triangles, Job &job)
-    : points_(points), triangles_(triangles), in_tree_(std::int32_t(triangles.size())), tree_(job.memory) {
-  tree_.build(boxes_of(triangles.size(), job, [&](std::size_t t) { return box_of(points, triangles[t]); }), leaf, job);
+    : points_(points), triangles_(triangles), job_(job), tree_(job.memory) {
+  build();
+}
+
+void ContactGuard::build() {
+  const auto box = [&](std::size_t t) { return box_of(points_, triangles_[t]); };
+  tree_.build(boxes_of(triangles_.size(), job_, box), leaf, job_);
+  in_tree_ = std::int32_t(triangles_.size());
 }
 
 bool ContactGuard::is_met(Span<const std::int32_t> old, Span<const Triangle> fresh) const {
@@ -47,6 +55,7 @@ bool ContactGuard::are_apart(const Triangle &a, const Triangle &b) const {
 void ContactGuard::take(Span<const std::int32_t> changed) {
   for (std::int32_t t : changed)
     if (t < in_tree_) tree_.refit(t, box_of(points_, triangles_[std::size_t(t)]));
+  if (triangles_.size() > std::size_t(in_tree_) + most_late) build();
 }
 
 }  // namespace tetlod

@@ -16,12 +16,14 @@ class ContactGuard {
   void take(Span<const std::int32_t> changed);
 
  private:
+  void build();
   bool meets_one_that_stays(const Triangle &fresh, Span<const std::int32_t> old) const;
   bool are_apart(const Triangle &a, const Triangle &b) const;
 
   const Array<Vec3> &points_;
   const Array<Triangle> &triangles_;
-  const std::int32_t in_tree_;  // those that came later are few
+  Job &job_;
+  std::int32_t in_tree_ = 0;  // those that came later are few
   KdTree tree_;
 };
 

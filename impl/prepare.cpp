@@ -52,6 +52,8 @@ Span<const double> read_scalars(const Input &input, Job &job, Array<double> &cop
 }
 
 void read_values(const Input &input, Job &job, Original &original) {
+  original.view.scalars = {};
+  original.scalars = Array<double>(original.scalars.get_allocator());  // of earlier values
   original.view.scalars = read_scalars(input, job, original.scalars);
   original.view.fields = input.steering_fields();
 }
@@ -146,11 +148,20 @@ Span<const Tet> read_tets(const Input &input, Job &job, Array<Tet> &copy) {
   return copy;
 }
 
-[[noreturn]] void refuse_value(const Input &input, const MeshView &mesh, std::size_t v, std::size_t field) {
-  const std::string name = input.name_of_steering(field).substr(0, 100), of_field = "of field " + name + " ";
-  fail(Status::mesh_nonfinite, "the value %sof vertex %zu is %s (on-nonfinite: error)",
-       name.empty() ? "" : of_field.c_str(), v + std::size_t(input.index_base),
-       number(mesh.scalars[v * mesh.fields + field]).c_str());
+/// That of a field at vertex v, the first one.
+[[noreturn]] void refuse_value(const Input &input, const Original &original, std::size_t v, std::size_t field,
+                               Job &job) {
+  const MeshView &mesh = original.view;
+  std::size_t more = 0;
+  for (std::size_t u = v + 1; u < original.used.size(); u++) {
+    if (u % block == 0) job.poll(0.5);
+    more += original.used[u] && first_nonfinite(mesh, u) < mesh.fields;
+  }
+  const std::string name = input.name_of_steering(field).substr(0, 100);
+  fail(Status::mesh_nonfinite, "the value %sof vertex %zu is %s%s (on-nonfinite: error)",
+       name.empty() ? "" : ("of field " + name + " ").c_str(), v + std::size_t(input.index_base),
+       number(mesh.scalars[v * mesh.fields + field]).c_str(),
+       more ? text(", and %zu more vertices have none", more).c_str() : "");
 }
 
 /// Looks at the coordinates and values of the points that tets use. Points without a finite value are marked as not
@@ -167,7 +178,7 @@ Box check_used_points(const Input &input, const Options &options, Job &job, Orig
         fail(Status::mesh_nonfinite, "coordinate %c of vertex %zu is %s", "xyz"[k], v + std::size_t(input.index_base),
              number(mesh.points[v][k]).c_str());
     if (const std::size_t k = first_nonfinite(mesh, v); k < mesh.fields) {
-      if (options.on_nonfinite == policy_error) refuse_value(input, mesh, v, k);
+      if (options.on_nonfinite == policy_error) refuse_value(input, original, v, k, job);
       used[v] = 0;
       original.nonfinite_points++;
       continue;

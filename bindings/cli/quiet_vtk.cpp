@@ -15,6 +15,12 @@ std::string what_was_wrong(const char *text) {
   return one_line(generic == 0 && line != std::string::npos ? whole.substr(line) : whole);
 }
 
+// Of a .vtk file of text: where a word is no number to VTK, it takes the next ones for names.
+std::string with_reason(const std::string &message) {
+  const bool is_about_a_name = message.find("Unsupported") == 0 && message.find(" attribute type: ") != message.npos;
+  return message + (is_about_a_name ? " (VTK reads no nan or inf from text)" : "");
+}
+
 }  // namespace
 
 vtkStandardNewMacro(VtkMessages);
@@ -35,7 +41,7 @@ void VtkMessages::check(const std::string &path, std::vector<std::string> &notes
   if (!errors.empty()) throw Failure(where + errors.front(), status);
 }
 
-void VtkMessages::DisplayErrorText(const char *text) { errors_.push_back(what_was_wrong(text)); }
+void VtkMessages::DisplayErrorText(const char *text) { errors_.push_back(with_reason(what_was_wrong(text))); }
 void VtkMessages::DisplayWarningText(const char *text) { warnings_.push_back(what_was_wrong(text)); }
 
 // Of a .vtk file whose data ends too soon VTK says no more than that; where it finds more to say, that is said first.

@@ -295,7 +295,11 @@ TEST_F(Steering, ValuesThatAreNotFinite) {
   EXPECT_EQ(found.status, TETLOD_ERR_MESH_NONFINITE);
   EXPECT_EQ(found.nonfinite_values.count, 1);
   EXPECT_EQ(found.nonfinite_values.first, 17);
-  expect_failure(tetlod_run(context.get()), TETLOD_ERR_MESH_NONFINITE, "the value of field z of vertex 17 is nan");
+  expect_failure(tetlod_run(context.get()), TETLOD_ERR_MESH_NONFINITE, "the value of field z of vertex 17 is nan (on");
+  z[18] = z[40] = nan_value;
+  expect_failure(tetlod_run(context.get()), TETLOD_ERR_MESH_NONFINITE,
+                 "the value of field z of vertex 17 is nan, and 2 more vertices have none (on-nonfinite: error)");
+  z[18] = z[40] = 0;
   ASSERT_EQ(tetlod_set_int(context.get(), TETLOD_OPT_ON_NONFINITE, TETLOD_POLICY_REPAIR), TETLOD_OK);
   run();
   EXPECT_EQ(report().nonfinite_points, 1);

@@ -342,6 +342,14 @@ TEST_F(Usage, AValueThatIsNone) {
   EXPECT_TRUE(std::filesystem::exists(folder / "pictures/report.html"));
 }
 
+TEST_F(Usage, AValueThatIsNoneInText) {
+  std::ofstream(folder / "in.vtk") << "# vtk DataFile Version 3.0\nno title\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+                                      "POINTS 5 double\n0 0 0 1 0 0 0 1 0 0 0 1 0 0 -1\n"
+                                      "CELLS 2 10\n4 0 1 2 3\n4 0 2 1 4\nCELL_TYPES 2\n10\n10\n"
+                                      "POINT_DATA 5\nSCALARS heat double 1\nLOOKUP_TABLE default\n0 1 nan 3 4\n";
+  expect_failure(run_tool({folder / "in.vtk", folder / "out.vtu"}), 1, "VTK reads no nan or inf from text");
+}
+
 TEST_F(Usage, AnInterruptionLeavesNothingBehind) {
   Cube cube;
   cube.size = 30;

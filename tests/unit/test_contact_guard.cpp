@@ -5,6 +5,7 @@
 
 #include "brute_force.hpp"
 #include "contact_guard.hpp"
+#include "geometry.hpp"
 #include "meshes.hpp"
 #include "remesh_surfaces.hpp"
 
@@ -29,6 +30,17 @@ class Contacts : public testing::Test {
       for (const Triangle &t : other.triangles) surface.triangles.push_back({first + t[0], first + t[1], first + t[2]});
     }
     ASSERT_TRUE(crossings(surface, host.memory).empty());
+  }
+
+  /// Triangles get a vertex each in their middle, which meets nothing.
+  void divide(std::size_t times, ContactGuard &guard) {
+    for (std::size_t i = 0; i < times; i++) {
+      const auto t = std::int32_t(random() % surface.triangles.size());
+      Change change = with_divided(t);
+      surface.points.back() = TriangleInSpace(surface.points, surface.triangles[std::size_t(t)]).middle();
+      make(change);
+      guard.take({change.old.data(), change.old.size()});
+    }
   }
 
   double uniform(double most) { return std::uniform_real_distribution<double>(-most, most)(random); }
@@ -72,10 +84,11 @@ class Contacts : public testing::Test {
 
 TEST_F(Contacts, AreThoseOfAllPairs) {
   std::size_t met = 0, made = 0, divided = 0;
-  for (unsigned seed : {1u, 3u}) {
+  for (const auto &[seed, times, changes] : {std::tuple(1u, 0u, 150), {3u, 0u, 150}, {5u, 600u, 40}}) {
     start_with(seed);
     ContactGuard guard(surface.points, surface.triangles, host.job);
-    for (int i = 0; i < 150; i++) {
+    divide(times, guard);
+    for (int i = 0; i < changes; i++) {
       const bool moves = random() % 2 != 0;
       const Surface before = surface;
       const auto any = [&](std::size_t count) { return std::int32_t(random() % count); };
