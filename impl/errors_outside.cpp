@@ -87,9 +87,8 @@ class OutsideVertices {
       double error;
     };
     KdTree tree(job_.memory);
-    Array<Box> places(&job_.memory);
-    for (std::size_t k = 0; k < vertices_.size(); k++) places.push_back({place(k), place(k)});
-    tree.build(std::move(places), 8, job_);
+    const auto box = [&](std::size_t k) { return Box{place(k), place(k)}; };
+    tree.build(boxes_of(vertices_.size(), job_, box), 8, job_);
     Array<Array<Found>> parts(mesh_.tets.size() / stretch + 1, &job_.memory);
     for_each(mesh_.tets.size(), job_, [&](std::size_t t) {
       if (!mesh_.alive(std::int32_t(t))) return;

@@ -74,19 +74,17 @@ bool Solids::measure_shells(Job &job) {
 
 /// Most solids are alone in their boxes: they are in nothing, and nothing is in them.
 void Solids::find_crowded(Job &job) {
-  Array<Box> boxes(shells_.size(), &job.memory);
-  for (std::size_t s = 0; s < boxes.size(); s++) boxes[s] = shells_[s].box;
-  boxes_.build(std::move(boxes), 4, job);
+  boxes_.build(boxes_of(shells_.size(), job, [&](std::size_t s) { return shells_[s].box; }), 4, job);
   for (std::size_t s = 0; s < shells_.size(); s++) {
     if (s % 4096 == 0) job.poll(0);
     shells_[s].crowded =
         boxes_.any_overlap(shells_[s].box, [&](std::int32_t other) { return std::size_t(other) != s; });
   }
-  boxes = Array<Box>(surface_.triangles.size(), &job.memory);
-  for (std::size_t t = 0; t < boxes.size(); t++)
-    if (shells_[std::size_t(shell_of(surface_.triangles[t]))].crowded)
-      boxes[t] = box_of<3>(points_, surface_.triangles[t]);
-  triangles_.build(std::move(boxes), 8, job);
+  const auto crowded_box = [&](std::size_t t) {
+    const Triangle &triangle = surface_.triangles[t];
+    return shells_[std::size_t(shell_of(triangle))].crowded ? box_of<3>(points_, triangle) : Box();
+  };
+  triangles_.build(boxes_of(surface_.triangles.size(), job, crowded_box), 8, job);
 }
 
 /// A cavity belongs to the shell around it. False when a cavity is in none, or a solid in the material of another.
