@@ -58,9 +58,7 @@ tetlod_status tetlod_check(tetlod_context *handle, tetlod_mesh_report *out) {
     begin(context);
     require_struct(out, "out", TETLOD_SIZE_TO(tetlod_mesh_report, nonmanifold_points));
     require_mesh(context.input);
-    Job job(context.memory, context.parallel);
-    connect_log(job, context);
-    connect_progress(job, context);
+    Job job = job_of(context);
     const Input input = with_scalars(context.input);
     ahead_of_what_is_kept(context, [&] {
       const Defects defects = find_defects(input, context.options, job);
@@ -76,9 +74,7 @@ tetlod_status tetlod_estimate_memory(tetlod_context *handle, uint64_t *bytes) {
     begin(context);
     require_pointer(bytes, "bytes");
     require_mesh(context.input);
-    Job job(context.memory, context.parallel);
-    connect_log(job, context);
-    connect_progress(job, context);
+    Job job = job_of(context);
     const Input input = with_scalars(context.input);
     check_counts(input);
     with_what_is_kept(context, [&] { *bytes = estimate_memory(input, context.options, context.prepared, job); });

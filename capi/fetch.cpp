@@ -29,6 +29,15 @@ void require_aligned(const std::int64_t *out, const char *name) {
   if (out) require_pointer(out, name);
 }
 
+/// Their corners, counted from the base.
+template <std::size_t corners>
+void fetch_simplices(const Array<std::array<std::int32_t, corners>> &simplices, const char *name, int32_t index_base,
+                     tetlod_array *dst) {
+  require_index_base(index_base);
+  const StridedArray to = checked_destination(dst, {name, int(corners), Shape::integers}, simplices.size());
+  write(to, simplices.size(), [&](std::size_t i, int c) { return simplices[i][std::size_t(c)] + index_base; });
+}
+
 const TetMesh &last_mesh(const tetlod_context &context) { return last_outcome(context).result.mesh; }
 
 tetlod_run_report report_of(const Outcome &outcome) {
@@ -115,19 +124,13 @@ tetlod_status tetlod_fetch_points(const tetlod_context *handle, tetlod_array *ds
 
 tetlod_status tetlod_fetch_tets(const tetlod_context *handle, int32_t index_base, tetlod_array *dst) {
   return entry(handle, [&](const tetlod_context &context) {
-    const Array<Tet> &tets = last_mesh(context).tets;
-    require_index_base(index_base);
-    const StridedArray to = checked_destination(dst, {"tets", 4, Shape::integers}, tets.size());
-    write(to, tets.size(), [&](std::size_t i, int c) { return tets[i][std::size_t(c)] + index_base; });
+    fetch_simplices(last_mesh(context).tets, "tets", index_base, dst);
   });
 }
 
 tetlod_status tetlod_fetch_boundary(const tetlod_context *handle, int32_t index_base, tetlod_array *dst) {
   return entry(handle, [&](const tetlod_context &context) {
-    const Array<Triangle> &boundary = last_mesh(context).boundary;
-    require_index_base(index_base);
-    const StridedArray to = checked_destination(dst, {"boundary", 3, Shape::integers}, boundary.size());
-    write(to, boundary.size(), [&](std::size_t i, int c) { return boundary[i][std::size_t(c)] + index_base; });
+    fetch_simplices(last_mesh(context).boundary, "boundary", index_base, dst);
   });
 }
 

@@ -64,8 +64,7 @@ const Stencil &stencil_of(tetlod_context &context) {
     Input original = context.input;
     original.fields.clear();
     begin(context);
-    Job job(context.memory, context.parallel);
-    connect_log(job, context);
+    Job job = quiet_job_of(context);
     ahead_of_what_is_kept(context,
                           [&] { find_stencil(original, outcome.options, context.prepared, job, outcome.result); });
   }

@@ -67,9 +67,7 @@ tetlod_status tetlod_run(tetlod_context *handle) {
     for (const SubmittedField &field : context.input.fields)
       check_count(context.input, field.name, field.values.tuples, field.association);
     check_counts(context.input);
-    Job job(context.memory, context.parallel);
-    connect_log(job, context);
-    connect_progress(job, context);
+    Job job = job_of(context);
     auto outcome = fresh_outcome(context);
     with_what_is_kept(context, [&] {
       outcome->result = Result(context.memory);
@@ -89,9 +87,7 @@ tetlod_status tetlod_measure_error(tetlod_context *handle, int32_t samples_per_t
     const Input original = original_of(outcome, context.input);
     Options options = outcome.options;
     options.seed = context.options.seed;
-    Job job(context.memory, context.parallel);
-    connect_log(job, context);
-    connect_progress(job, context);
+    Job job = job_of(context);
     ahead_of_what_is_kept(context, [&] {
       refuse_changed(fingerprint_of_mesh(original, options, job), outcome.result);
       const FieldError error = measure_error(original, options, outcome.result.mesh, samples_per_tet, job);

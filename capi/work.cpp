@@ -92,15 +92,19 @@ void begin(tetlod_context &context) {
   context.parallel = Parallel(threads_of(context.options));
 }
 
-void connect_log(Job &job, tetlod_context &context) {
+Job quiet_job_of(tetlod_context &context) {
+  Job job(context.memory, context.parallel);
   job.cancel = &context.cancel;
   if (context.log.call) job.log = [&context](int level, const char *message) { log_to_host(context, level, message); };
+  return job;
 }
 
-void connect_progress(Job &job, tetlod_context &context) {
+Job job_of(tetlod_context &context) {
+  Job job = quiet_job_of(context);
   job.time_limit = context.options.time_limit;
   if (context.progress.call)
     job.progress = [&context](Stage stage, double fraction) { return host_cancels(context, stage, fraction); };
+  return job;
 }
 
 }  // namespace tetlod::capi

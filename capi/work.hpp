@@ -53,9 +53,9 @@ void with_what_is_kept(tetlod_context &context, const Body &body) {
 /// The work that begins here is what tetlod_cancel means from now on.
 void begin(tetlod_context &context);
 
-/// The host's log and tetlod_cancel.
-void connect_log(Job &job, tetlod_context &context);
-/// The host's progress callback and the time limit.
-void connect_progress(Job &job, tetlod_context &context);
+/// That heeds tetlod_cancel and writes to the host's log.
+Job quiet_job_of(tetlod_context &context);
+/// That heeds the time limit, too, and calls the host's progress callback.
+Job job_of(tetlod_context &context);
 
 }  // namespace tetlod::capi

@@ -91,7 +91,7 @@ std::int64_t collapses_to(double sigma, std::int64_t edges, const CollapseLog &l
 void weld(const CutVertices &vertices, std::size_t surface_points, Job &job, Surface &out) {
   Array<std::int32_t> number(surface_points, -1, &job.memory);
   for (std::size_t t = 0; t < out.triangles.size(); t++) {
-    if (t % 16384 == 0) job.poll(1);
+    job.poll_at(t, 1);
     for (std::int32_t &corner : out.triangles[t]) {
       const auto v = std::size_t(corner);
       std::int32_t &n = number[std::size_t(vertices.id[v])];
@@ -110,7 +110,7 @@ void replay(const CollapseLog &log, std::size_t count, const SurfaceTopology &to
             Surface &surface) {
   Replay again(surface, topology, job);
   for (std::size_t i = 0; i < count; i++) {
-    if (i % 16384 == 0) job.poll(double(i) / double(count));
+    job.poll_at(i, double(i) / double(count));
     again.collapse(log.collapses[i], values == MovedValues::logged ? &log.scalars[i * surface.fields] : nullptr);
   }
   Surface simplified(job.memory);

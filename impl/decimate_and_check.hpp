@@ -15,14 +15,4 @@ using Decimation = std::function<DecimateReport(Surface &surface, const Decimate
 DecimateReport decimate_and_check(Surface &surface, const SurfaceTopology &topology, const DecimateOptions &options,
                                   std::int32_t index_base, Job &job, const Decimation &decimate);
 
-/// By decimate_boundary itself.
-inline DecimateReport decimate_and_check(Surface &surface, const SurfaceTopology &topology,
-                                         Span<const std::uint8_t> locked, const DecimateOptions &options,
-                                         std::int32_t index_base, Job &job) {
-  const auto decimate = [&](Surface &of, const DecimateOptions &way) {
-    return decimate_boundary(of, topology, locked, way, job);
-  };
-  return decimate_and_check(surface, topology, options, index_base, job, decimate);
-}
-
 }  // namespace tetlod

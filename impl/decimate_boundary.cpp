@@ -95,7 +95,7 @@ class Decimator {
   void copy_vertices(const SurfaceTopology &topology, Span<const std::uint8_t> locked) {
     for (std::int32_t id : topology.vertex_of) {
       const auto i = std::size_t(id);
-      if (id_.size() % 16384 == 0) job_.poll(0);
+      job_.poll_at(id_.size(), 0);
       point_.push_back(surface_.points[i]);
       values_.push_back(reinterpret_cast<const Values<m> *>(surface_.scalars.data())[i]);
       origin_.push_back(surface_.origin[i]);
@@ -109,7 +109,7 @@ class Decimator {
 
   void copy_triangles(const SurfaceTopology &topology) {
     for (std::size_t t = 0; t < surface_.triangles.size(); t++) {
-      if (t % 16384 == 0) job_.poll(0);
+      job_.poll_at(t, 0);
       Triangle vertices{};
       for (std::size_t k = 0; k < 3; k++) vertices[k] = topology.sheet_vertex[3 * t + k];
       triangle_.push_back(vertices);

@@ -91,7 +91,7 @@ class SolidDecimator {
     Array<std::int32_t> known(original_.points.size(), -1, &job_.memory), number(mesh_.points.size(), -1, &job_.memory);
     for (std::int32_t v : left_) known[std::size_t(mesh_.origin[std::size_t(v)])] = v;
     for (std::size_t i = 0; i < known.size(); i++) {
-      if (i % 65536 == 0) job_.poll(1);
+      job_.poll_at(i, 1);
       const std::int32_t v = known[i];
       if (v < 0) continue;
       const bool moved = mesh_.point(v) != original_.points[i];

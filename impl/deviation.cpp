@@ -14,7 +14,7 @@ template <class Visit>
 void for_samples(const Surface &surface, Samples samples, Job &job, const Visit &visit) {
   Array<std::uint8_t> seen(surface.points.size(), 0, &job.memory);
   for (std::size_t t = 0; t < surface.triangles.size(); t++) {
-    if (t % 65536 == 0) job.poll(0);
+    job.poll_at(t, 0);
     const Triangle &triangle = surface.triangles[t];
     Vec3 corner[3];
     for (std::size_t k = 0; k < 3; k++) {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double pull = 1e-2;  // of the mean diagonal: less, and vertices with few probes go too far
 constexpr std::size_t block = 256;
-constexpr std::size_t many = 1 << 15;  // tets between two polls of passes that do little with each
+constexpr std::size_t many = 1 << 15;  // tets whose evidence is found at a time
 /// Partial sums over tets are this many, so that they may be made at the same time.
 constexpr std::size_t parts = 8;
 
@@ -65,7 +65,7 @@ class Fit {
     gather();
     double sum = 0;
     for (std::size_t t = 0; t < products_.size(); t++) {
-      poll_at(t);
+      job_.poll_at(t, 0.5);
       if (!mesh.alive(std::int32_t(t))) continue;
       for (std::size_t i = 0; i < 4; i++) {
         diagonal_[std::size_t(mesh.tets[t][i])] += double(products_[t][entry_of(i, i)]);
@@ -127,10 +127,6 @@ class Fit {
     return quotient;
   }
 
-  void poll_at(std::size_t t) const {
-    if (t % many == 0) job_.poll(0.5);
-  }
-
   /// The evidence of all tets, some at a time.
   void gather() {
     Array<Evidence<m>> some(&job_.memory);
@@ -170,7 +166,7 @@ class Fit {
       Values<m> *const sums = partial_.data() + begin * count;
       std::fill(sums, sums + count, Values<m>{});
       for (std::size_t t = begin * part; t < std::min(tets, (begin + 1) * part); t++) {
-        poll_at(t);
+        job_.poll_at(t, 0.5);
         if (mesh_.alive(std::int32_t(t))) add_image(products_[t], mesh_.tets[t], x, sums);
       }
     });

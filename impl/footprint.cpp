@@ -89,7 +89,7 @@ double bytes_of_refining(const Outlook &outlook) {
 template <class Visit>
 void for_vertices(Span<const std::int32_t> vertices, Job &job, const Visit &visit) {
   for (std::size_t i = 0; i < vertices.size(); i++) {
-    if (i % 65536 == 65535) job.poll(0.5);
+    job.poll_at(i + 1, 0.5);
     visit(vertices[i]);
   }
 }

@@ -48,14 +48,14 @@ void copy_connectivity(const SurfaceTopology &topology, Job &job, Mesh &mesh) {
   for (std::size_t v = 0; v < topology.vertex_of.size(); v++) mesh.new_vertex();
   Array<typename Mesh::HalfedgeHandle> made(halfedges, typename Mesh::HalfedgeHandle(), &job.memory);
   for (std::size_t h = 0; h < halfedges; h++) {
-    if (h % 65536 == 0) job.poll(0);
+    job.poll_at(h, 0);
     const auto mate = std::size_t(topology.mate[h]);
     if (mate < h) continue;
     made[h] = mesh.new_edge(vertex(h), vertex(mate));
     made[mate] = mesh.opposite_halfedge_handle(made[h]);
   }
   for (std::size_t t = 0; t < triangles; t++) {
-    if (t % 16384 == 0) job.poll(0);
+    job.poll_at(t, 0);
     const auto face = mesh.new_face();
     for (std::size_t k = 0; k < 3; k++) {
       const std::size_t h = 3 * t + k;

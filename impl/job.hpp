@@ -2,6 +2,7 @@
 #pragma once
 #include <atomic>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <thread>
@@ -41,6 +42,11 @@ class Job {
   /// Call it at least every few milliseconds of work, from any thread. Throws Status::cancelled or
   /// Status::time_limit. `fraction` of the stage that is done, in [0, 1]; the host is not told less than before.
   void poll(double fraction);
+
+  /// In loops over many items that are soon done, with the number of each: polls once in a while.
+  void poll_at(std::size_t item, double fraction) {
+    if (item % 65536 == 0) poll(fraction);
+  }
 
  private:
   using Clock = std::chrono::steady_clock;

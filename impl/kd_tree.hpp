@@ -34,7 +34,7 @@ class KdTree {
     Array<Entry> entries(&job.memory);
     entries.reserve(of_items.size());
     for (std::size_t i = 0; i < of_items.size(); i++) {
-      if (i % polled == 0) job.poll(fraction);
+      job.poll_at(i, fraction);
       if (of_items[i].low.x <= of_items[i].high.x)
         entries.push_back({of_items[i].low + of_items[i].high, std::int32_t(i)});
     }
@@ -133,8 +133,7 @@ class KdTree {
   }
 
  private:
-  static constexpr std::size_t polled = 65536;  ///< items, of what else is soon done
-  static constexpr int max_depth = 128;         // twice the depth of 2^32 items halved, and more
+  static constexpr int max_depth = 128;  // twice the depth of 2^32 items halved, and more
 
   struct Node {
     Box box;

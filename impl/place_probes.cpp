@@ -364,7 +364,7 @@ void place_probes(const MeshView &original, const ProbeOptions &options, Job &jo
   job.poll(0.2);
   mesh.first_probe.assign(mesh.tets.size(), -1);
   for (std::size_t i = home.size(); i-- > 0;) {
-    if (i % 65536 == 0) job.poll(0.2);
+    job.poll_at(i, 0.2);
     if (home[i] >= 0) mesh.put_probe(std::int32_t(i), home[i]);
   }
   job.parallel.for_blocks(mesh.tets.size(), block, [&](std::size_t begin, std::size_t end) {

@@ -154,7 +154,7 @@ Span<const Tet> read_tets(const Input &input, Job &job, Array<Tet> &copy) {
   const MeshView &mesh = original.view;
   std::size_t more = 0;
   for (std::size_t u = v + 1; u < original.used.size(); u++) {
-    if (u % block == 0) job.poll(0.5);
+    job.poll_at(u, 0.5);
     more += original.used[u] && first_nonfinite(mesh, u) < mesh.fields;
   }
   const std::string name = input.name_of_steering(field).substr(0, 100);
@@ -171,7 +171,7 @@ Box check_used_points(const Input &input, const Options &options, Job &job, Orig
   Array<std::uint8_t> &used = original.used;
   Box box;
   for (std::size_t v = 0; v < used.size(); v++) {
-    if (v % block == 0) job.poll(0.5);
+    job.poll_at(v, 0.5);
     if (!used[v]) continue;
     for (int k = 0; k < 3; k++)
       if (!std::isfinite(mesh.points[v][k]))
@@ -194,7 +194,7 @@ void measure(const Input &input, Job &job, Original &original) {
   Ranges ranges;
   original.box = {};
   for (std::size_t v = 0; v < counts.size(); v++) {
-    if (v % block == 0) job.poll(0.9);
+    job.poll_at(v, 0.9);
     if (!counts[v]) continue;
     add_values(original.view, v, ranges);
     original.box.add(original.view.points[v]);
@@ -217,7 +217,7 @@ void drop_and_rename(Span<const std::int32_t> representative, Job &job, Original
   kept.reserve(original.view.tets.size());
   numbers.reserve(original.view.tets.size());
   for (std::size_t i = 0; i < original.view.tets.size(); i++) {
-    if (i % block == 0) job.poll(0.9);
+    job.poll_at(i, 0.9);
     const Tet &t = original.view.tets[i];
     if (std::any_of(t.begin(), t.end(), [&](std::int32_t v) { return !original.used[std::size_t(v)]; })) continue;
     Tet renamed = t;
@@ -247,7 +247,7 @@ void read_flags(const Input &input, Span<const std::int32_t> representative, Job
   if (!input.flags.present) return;
   original.flags.assign(representative.size(), 0);
   for (std::size_t v = 0; v < representative.size(); v++) {
-    if (v % block == 0) job.poll(0.9);
+    job.poll_at(v, 0.9);
     const auto flags = input.flags.at<std::uint8_t>(std::int64_t(v), 0);
     if (flags > (keep_vertex | lock_vertex))
       fail(Status::argument, "the flags of vertex %zu are %d, of which not all have a meaning",
@@ -334,7 +334,7 @@ void drop_excluded(const Input &input, Job &job, Boundary &boundary, Original &o
   Array<Tet> kept(&job.memory);
   Array<std::int32_t> numbers(&job.memory), renamed = array_of(original.view.tets.size(), -1, job);
   for (std::size_t t = 0; t < renamed.size(); t++) {
-    if (t % block == 0) job.poll(0.9);
+    job.poll_at(t, 0.9);
     if (boundary.excluded[t]) continue;
     renamed[t] = std::int32_t(kept.size());
     kept.push_back(original.view.tets[t]);
@@ -362,7 +362,7 @@ bool renew_values(const Input &input, Job &job, Original &original) {
   if (original.tets.empty()) original.view.tets = {reinterpret_cast<const Tet *>(input.tets.data), tets};
   read_values(input, job, original);
   for (std::size_t v = 0; v < points; v++) {
-    if (v % block == 0) job.poll(0.5);
+    job.poll_at(v, 0.5);
     if (original.used[v] && first_nonfinite(original.view, v) < original.view.fields) return false;
   }
   measure(input, job, original);

@@ -30,7 +30,7 @@ Fingerprint fingerprint_of(Span<const double> values, const DecimateOptions &opt
 void add_nonfinite_values(const Input &input, Job &job, Fingerprint &mesh) {
   const auto add = [&](const StridedArray &values) {
     for (std::int64_t v = 0; v < values.tuples; v++) {
-      if (v % 65536 == 0) job.poll(0);
+      job.poll_at(std::size_t(v), 0);
       if (!std::isfinite(values.real(v, 0))) mesh.add(std::uint64_t(v));
     }
     mesh.add(std::uint64_t(values.tuples));

@@ -171,7 +171,7 @@ class Refinement {
         out_.scalars.insert(out_.scalars.end(), mesh_.values[v].begin(), mesh_.values[v].end());
       }
     for (std::size_t t = 0; t < mesh_.tets.size(); t++) {
-      if (t % 65536 == 0) job_.poll(1);
+      job_.poll_at(t, 1);
       if (!mesh_.alive(std::int32_t(t))) continue;
       Tet tet = mesh_.tets[t];
       for (std::int32_t &v : tet) v = number[std::size_t(v)];

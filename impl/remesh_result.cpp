@@ -13,8 +13,7 @@ namespace tetlod {
 
 namespace {
 
-constexpr std::size_t block = std::size_t(1) << 14;  // items between two polls of the job
-constexpr std::int32_t nobody = -1;                  // number of a Steiner point; slot of a point that is not there
+constexpr std::int32_t nobody = -1;  // number of a Steiner point; slot of a point that is not there
 
 FaceKey face_of(const Tet &tet, int opposite) {
   const auto corner = [&](int k) { return tet[std::size_t(tet_face[opposite][k])]; };
@@ -45,7 +44,7 @@ Array<unsigned char> vote(const RemeshInput &input, const TetgenReply &reply, do
   file_faces(input.triangles, reply.points.size(), fraction, job, boundary);
   Array<unsigned char> votes(reply.tets.size() + 1, none, &job.memory);
   for (std::size_t i = 0; i < reply.tets.size(); i++) {
-    if (i % block == 0) job.poll(fraction);
+    job.poll_at(i, fraction);
     unsigned char &region = votes[std::size_t(reply.regions[i])];
     for (int k = 0; k < 4; k++) {
       const FaceKey face = face_of(reply.tets[i], k);
@@ -91,7 +90,7 @@ std::string check_faces(const RemeshInput &input, const TetgenReply &reply, doub
       visit(face.vertex, face.other_side());
     }
     for (std::size_t i = 0; i < reply.tets.size(); i++) {
-      if (i % block == 0) job.poll(fraction);
+      job.poll_at(i, fraction);
       for (int k = 0; k < 4; k++) {
         const FaceKey face = face_of(reply.tets[i], k);
         visit(face.vertex, face.key);
@@ -100,7 +99,7 @@ std::string check_faces(const RemeshInput &input, const TetgenReply &reply, doub
   };
   faces.build(reply.points.size(), enumerate, fraction, job);
   for (std::size_t v = 0; v < faces.vertices(); v++) {
-    if (v % block == 0) job.poll(fraction);
+    job.poll_at(v, fraction);
     if (!is_paired(faces.of(v))) return text("the faces at point %zu do not match the boundary", v);
   }
   return {};

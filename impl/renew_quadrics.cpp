@@ -71,7 +71,7 @@ class QuadricRenewal {
   /// To the quadrics of the vertices begin to end.
   void add_tets(std::size_t begin, std::size_t end) {
     for (std::size_t t = 0; t < original_.tets.size(); t++) {
-      if (t % 65536 == 0) job_.poll(0);
+      job_.poll_at(t, 0);
       const Tet &tet = original_.tets[t];
       std::size_t homes[4];
       bool any = false;

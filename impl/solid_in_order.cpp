@@ -12,8 +12,6 @@ namespace tetlod {
 
 namespace {
 
-constexpr std::size_t poll_every = 65536;
-
 void order_vertices(const MeshView &original, Span<const std::int32_t> used, Job &job, SolidInOrder &solid) {
   const auto place = [&](std::size_t i) { return original.points[std::size_t(used[i])]; };
   solid.origin = order_by_place(used.size(), place, job);
@@ -47,7 +45,7 @@ void order_tets(const MeshView &original, Span<const std::int32_t> number, Job &
   const auto for_tets = [&](const auto &visit) {
     job.parallel.for_parts(solid.points.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t t = 0; t < first.size(); t++) {
-        if (t % poll_every == 0) job.poll(0);
+        job.poll_at(t, 0);
         if (std::size_t(first[t]) - begin < end - begin) visit(t, next[std::size_t(first[t])]);
       }
     });

@@ -75,7 +75,7 @@ template <std::size_t m>
 void SolidMesh<m>::add_tets(std::size_t begin, std::size_t end, Job &job) {
   const auto is_among = [&](std::int32_t v) { return std::size_t(v) - begin < end - begin; };
   for (std::size_t t = 0; t < tets.size(); t++) {
-    if (t % 65536 == 0) job.poll(0);
+    job.poll_at(t, 0);
     const Tet &tet = tets[t];
     if (!(is_among(tet[0]) | is_among(tet[1]) | is_among(tet[2]) | is_among(tet[3]))) continue;
     const auto normals = upright_normals<m>({place(tet[0]), place(tet[1]), place(tet[2]), place(tet[3])});

@@ -44,7 +44,7 @@ void sort_by_digit(const Array<Coded> &codes, int shift, Job &job, Array<Coded> 
   for (const Coded &of : codes) next[digit(of) + 1]++;
   std::partial_sum(next.begin(), next.end(), next.begin());
   for (std::size_t i = 0; i < codes.size(); i++) {
-    if (i % 65536 == 0) job.poll(0);
+    job.poll_at(i, 0);
     sorted[next[digit(codes[i])]++] = codes[i];
   }
 }

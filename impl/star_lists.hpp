@@ -104,7 +104,7 @@ class StarLists {
   void for_corners(Span<const std::array<std::int32_t, corners>> simplices, Job &job, const Visit &visit) const {
     job.parallel.for_parts(count_.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = 0; i < simplices.size(); i++) {
-        if (i % 65536 == 0) job.poll(0);
+        job.poll_at(i, 0);
         if (simplices[i][0] < 0) continue;
         for (std::int32_t v : simplices[i])
           if (std::size_t(v) - begin < end - begin) visit(v, std::int32_t(i));

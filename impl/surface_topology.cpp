@@ -154,7 +154,7 @@ class TopologyFinder {
     out_.sheet_vertex.assign(corners, -1);
     Array<std::uint8_t> sheets(points_.size(), 0, &job_.memory);
     for (std::size_t c = 0; c < corners; c++) {
-      if (c % 65536 == 0) job_.poll(0);
+      job_.poll_at(c, 0);
       if (out_.sheet_vertex[c] >= 0) continue;
       const auto sheet = std::int32_t(out_.vertex_of.size());
       const std::int32_t v = from(std::int32_t(c));
@@ -180,7 +180,7 @@ class TopologyFinder {
       out_.component[t] = number;
       stack.push_back(std::int32_t(t));
       for (std::size_t seen = 0; !stack.empty(); seen++) {
-        if (seen % 65536 == 0) job_.poll(0);
+        job_.poll_at(seen, 0);
         const std::int32_t at = stack.back();
         stack.pop_back();
         for (int k = 0; k < 3; k++) {

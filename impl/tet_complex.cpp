@@ -27,7 +27,7 @@ void TetComplex::connect(Job &job) {
     neighbours[first[1].tet()][first[1].corner()] = std::int32_t(first[0].tet());
   });
   for (std::size_t t = 0; t < tets.size(); t++) {
-    if (t % stretch == 0) job.poll(0.1);
+    job.poll_at(t, 0.1);
     for (std::size_t k = 0; k < 4; k++) {
       tet_of[std::size_t(tets[t][k])] = std::int32_t(t);
       if (neighbours[t][k] >= 0) continue;
@@ -41,7 +41,7 @@ void TetComplex::connect(Job &job) {
 void TetComplex::find_touching(Job &job) {
   Array<std::int32_t> count(points.size(), 0, &memory_);
   for (std::size_t t = 0; t < tets.size(); t++) {
-    if (t % stretch == 0) job.poll(0.1);
+    job.poll_at(t, 0.1);
     for (std::int32_t v : tets[t]) count[std::size_t(v)]++;
   }
   job.parallel.for_blocks(points.size(), 512, [&](std::size_t begin, std::size_t end) {

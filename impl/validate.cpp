@@ -43,7 +43,7 @@ class Inspector {
   /// Keeps the tets whose vertices are there, with their numbers.
   void read_tets() {
     for (std::int64_t t = 0; t < found_.tets; t++) {
-      if (t % 65536 == 0) job_.poll(0);
+      job_.poll_at(std::size_t(t), 0);
       Tet tet{};
       bool sound = true;
       for (int k = 0; k < 4; k++) {
@@ -142,7 +142,7 @@ class Inspector {
 
   void look_at_tets() {
     for (std::size_t i = 0; i < tets_.size(); i++) {
-      if (i % 65536 == 0) job_.poll(0.5);
+      job_.poll_at(i, 0.5);
       const int sign = side(tets_[i]);
       if (sign == 0) found_.flat.add(std::int64_t(number_[i]) + base_);
       if (sign < 0) found_.inverted.add(std::int64_t(number_[i]) + base_);

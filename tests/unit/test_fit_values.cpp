@@ -1,8 +1,8 @@
 // Values by least squares over probes, of which those at original vertices count for more.
 #include <gtest/gtest.h>
 
+#include "adaptive_meshes.hpp"
 #include "fit_values.hpp"
-#include "meshes.hpp"
 #include "place_probes.hpp"
 
 namespace tetlod {
@@ -16,21 +16,10 @@ class FitValues : public testing::TestWithParam<double> {
   static constexpr double at_vertex = 3, inside = 1;
 
   FitValues() : mesh(host.memory) {
-    for (const Vec3 &p : {Vec3(0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)}) {
-      mesh.points.push_back(p);
-      mesh.values.push_back({0});
-    }
-    mesh.tets.push_back({0, 1, 2, 3});
-    mesh.kept.assign(4, 0);
-    mesh.connect(host.job);
+    adapt(corner_tet([](const Vec3 &) { return 0; }), host, mesh);
     mesh.vertex_probes = 1;
     mesh.vertex_weight = GetParam();
-    for (double value : {at_vertex, inside}) {
-      mesh.probes.push_back({Vec3(0), {value}});
-      mesh.next_probe.push_back(-1);
-      mesh.put_probe(std::int32_t(mesh.probes.size()) - 1, 0);
-    }
-    mesh.measure(0);
+    for (double value : {at_vertex, inside}) add_probe(Vec3(0), value, mesh);
   }
 
   double weighted_mean(double of_vertex, double of_inside) const {
@@ -64,12 +53,7 @@ TEST(PlaceProbes, CountVerticesForMore) {
   double before = 1;
   for (int rounds : {0, 1, 12}) {
     AdaptiveMesh<1> mesh(host.memory);
-    const TetMesh same = as_result(cube, host.memory);
-    mesh.points.assign(same.points.begin(), same.points.end());
-    mesh.tets.assign(same.tets.begin(), same.tets.end());
-    mesh.values.assign(mesh.points.size(), Values<1>{0});
-    mesh.kept.assign(mesh.points.size(), 0);
-    mesh.connect(host.job);
+    adapt(cube, host, mesh);
     place_probes(cube.view(), enough_probes(double(cube.tets.size()), rounds, true), host.job, mesh);
     EXPECT_GT(mesh.weight_of(0), before);
     EXPECT_EQ(mesh.weight_of(std::int32_t(mesh.vertex_probes)), 1);

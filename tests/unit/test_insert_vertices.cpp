@@ -1,8 +1,8 @@
 // What a new vertex says between the probes that asked for it.
 #include <gtest/gtest.h>
 
+#include "adaptive_meshes.hpp"
 #include "insert_vertices.hpp"
-#include "meshes.hpp"
 
 namespace tetlod {
 namespace {
@@ -14,23 +14,10 @@ class InsertVertices : public testing::Test {
  protected:
   static constexpr double off = 0.01;
 
-  InsertVertices() : mesh(host.memory) {
-    for (const Vec3 &p : {Vec3(0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)}) {
-      mesh.points.push_back(p);
-      mesh.values.push_back({linear(p)});
-    }
-    mesh.tets.push_back({0, 1, 2, 3});
-    mesh.kept.assign(4, 0);
-    mesh.connect(host.job);
-  }
+  InsertVertices() : mesh(host.memory) { adapt(corner_tet(linear), host, mesh); }
   static double linear(const Vec3 &p) { return 3 * p.x - p.y + 2 * p.z; }
 
-  void add_probe(const Vec3 &p) {
-    mesh.probes.push_back({p, {linear(p) + off}});
-    mesh.next_probe.push_back(-1);
-    mesh.put_probe(std::int32_t(mesh.probes.size()) - 1, 0);
-    mesh.measure(0);
-  }
+  void add_probe(const Vec3 &p) { test::add_probe(p, linear(p) + off, mesh); }
 
   /// By which the new vertex differs from the linear function.
   double insert() {

@@ -1,9 +1,9 @@
 // The largest errors of a small mesh: found, lowered one after another, and gone when every vertex is served.
 #include <gtest/gtest.h>
 
+#include "adaptive_meshes.hpp"
 #include "errors_outside.hpp"
 #include "hold_bound.hpp"
-#include "meshes.hpp"
 #include "place_probes.hpp"
 
 namespace tetlod {
@@ -11,14 +11,9 @@ namespace {
 
 using namespace test;
 
-/// `mesh` becomes the coarse one, of value 0, among the vertices of the original.
+/// `mesh` becomes the coarse one among the vertices of the original.
 void put_among(const Mesh &original, const Mesh &coarse, bool project_outside, Host &host, AdaptiveMesh<1> &mesh) {
-  const TetMesh result = as_result(coarse, host.memory);
-  mesh.points.assign(result.points.begin(), result.points.end());
-  mesh.tets.assign(result.tets.begin(), result.tets.end());
-  mesh.values.assign(mesh.points.size(), Values<1>{0});
-  mesh.kept.assign(mesh.points.size(), 0);
-  mesh.connect(host.job);
+  adapt(coarse, host, mesh);
   ProbeOptions vertices;
   vertices.most_inner = 0;
   vertices.project_outside = project_outside;
@@ -146,16 +141,15 @@ TEST(PlaceProbes, TakesVerticesThatAreAHairOutsideToTheBoundary) {
 std::vector<std::int32_t> beyond_above_sliver(double beneath, double value_of_wall, double bound) {
   const Vec3 middle(0.3, 0.3, 0);
   const Mesh coarse{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, middle - Vec3(0, 0, beneath), {0.3, 0.3, -1}},
-                    {},
+                    {value_of_wall, value_of_wall, value_of_wall, 1, 1},
                     {{0, 2, 1, 3}, {0, 3, 1, 4}, {1, 3, 2, 4}, {2, 3, 0, 4}}};
   Mesh original = coarse;
-  original.scalars = {value_of_wall, value_of_wall, value_of_wall, 1, 1, 0};
   original.points.push_back(middle + Vec3(0, 0, 1e-9));
+  original.scalars.push_back(0);
   original.tets.push_back({0, 1, 2, 5});
   Host host;
   AdaptiveMesh<1> mesh(host.memory);
   put_among(original, coarse, true, host, mesh);
-  for (std::size_t v = 0; v < mesh.values.size(); v++) mesh.values[v] = {original.scalars[v]};
   const Array<std::int32_t> beyond = errors_outside(original.view(), bound, host.job, mesh).beyond;
   return {beyond.begin(), beyond.end()};
 }
@@ -170,16 +164,15 @@ TEST(ErrorsOutside, FindWhatIsBehindASliver) {
 
 /// A vertex above a tet, out of it by more than rounding until the tet becomes higher.
 TEST(ErrorsOutside, KnowWhatComesToBeOutByRounding) {
-  const Mesh coarse{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3, 0.3, -1}}, {}, {{0, 1, 2, 3}}};
+  const Mesh coarse{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3, 0.3, -1}}, {0, 0, 0, 0}, {{0, 1, 2, 3}}};
   for (double out : {0.5e-6, 1.5e-6, 2.5e-6, 1e-5, 1e-3}) {
     Mesh original = coarse;
     original.points.push_back({0.3, 0.3, out});
-    original.scalars = {0, 0, 0, 0, 1};
+    original.scalars.push_back(1);
     original.tets.push_back({0, 1, 2, 4});
     Host host;
     AdaptiveMesh<1> mesh(host.memory);
     put_among(original, coarse, false, host, mesh);
-    for (std::size_t v = 0; v < mesh.values.size(); v++) mesh.values[v] = {0};
     const bool is_inside = out < 1e-6, comes_inside = !is_inside && out < 100e-6;
     EXPECT_EQ(mesh.vertices_left_out, is_inside ? 0u : 1u) << out;
     EXPECT_EQ(mesh.in_no_tet.size(), is_inside ? 0u : 1u) << out;

@@ -4,9 +4,8 @@
 #include <map>
 #include <set>
 
-#include "adaptive_mesh.hpp"
+#include "adaptive_meshes.hpp"
 #include "brute_force.hpp"
-#include "meshes.hpp"
 
 namespace tetlod {
 namespace {
@@ -58,9 +57,7 @@ TEST_P(Complex, KnowsItsBoundaryAndWhereItTouchesItself) {
   for (unsigned seed = 1; seed <= 3; seed++) {
     const Mesh solid = random_solid(12, 0.6, seed);
     AdaptiveMesh<1> mesh(host.memory);
-    mesh.points.assign(solid.points.begin(), solid.points.end());
-    mesh.tets.assign(solid.tets.begin(), solid.tets.end());
-    mesh.connect(host.job);
+    adapt(solid, host, mesh);
     std::set<std::int32_t> boundary;
     for (const Triangle &t : brute_boundary(solid)) boundary.insert(t.begin(), t.end());
     const std::set<std::int32_t> at_vertices = touching_at_vertices(solid), along_edges = touching_along_edges(solid);

@@ -44,7 +44,10 @@ class BoundaryStage {
     const Stopwatch watch;
     tetlod::SurfaceTopology topology(stages_.memory);
     tetlod::find_topology(made.points, made.triangles, stages_.job, topology);
-    tetlod::decimate_and_check(made, topology, tetlod::Span<const std::uint8_t>(), options, 0, stages_.job);
+    tetlod::decimate_and_check(made, topology, options, 0, stages_.job,
+                               [&](tetlod::Surface &surface, const tetlod::DecimateOptions &way) {
+                                 return tetlod::decimate_boundary(surface, topology, {}, way, stages_.job);
+                               });
     return watch.cost();
   }
 
