@@ -51,7 +51,7 @@ class Refinement {
     const ProbeOptions enough =
         projected(enough_probes(double(options_.tets), options_.rounds, options_.follows_field));
     place_probes(original_, enough, job_, mesh_);
-    if (options_.follows_field) follow_field();
+    if (options_.follows_field && mean_error() > square_of_rounding()) follow_field();
     insert(options_.before_lowering - count());
     fit_values(fit_steps, job_, mesh_);
     if (mesh_.share_of_vertices < 1) place_probes(original_, every_vertex(), job_, mesh_);
