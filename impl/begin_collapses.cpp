@@ -101,7 +101,7 @@ template <std::size_t m>
 CollapseStart<m> begin_collapses(const MeshView &original, const Boundary &boundary, const FieldsAsLengths<m> &fields,
                                  const SolidOptions &options, SolidHistory &history, Job &job) {
   if (!options.restored.empty()) history.forget(job.memory);  // of what does not know them, to make room
-  const bool keeps_states = options.max_deviation <= 0 && options.restored.empty() && options.planes == 1 &&
+  const bool keeps_states = options.max_deviation <= 0 && options.restored.empty() && !options.is_attempt &&
                             options.careful_from < std::int64_t(original.tets.size());
   if (keeps_states && history.is_earlier()) {
     if (auto start = warm_start(original, boundary, fields, options, history, job)) return std::move(*start);

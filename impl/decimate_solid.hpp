@@ -32,7 +32,8 @@ struct SolidOptions {
   bool hasty = false;        ///< vertices inside are removed nearer to the size, and more of them in a round
   bool holds_bound = false;  ///< what is flat gets no flatter, because a bound is to be held there
   bool may_relax = false;    ///< where little is admissible else, the boundary may get more folded than it is
-  double planes = 1;         ///< what the boundary's planes weigh, of what they do usually; else no states come and go
+  double planes = 1;         ///< what the boundary's planes weigh, of weigh_planes()
+  bool is_attempt = false;   ///< one of several: no states come and go
   double warm_start = 0;  ///< begins where earlier values left the solid, if the error gets larger by this part at most
   Span<const std::uint8_t> kept;      ///< original vertices that keep place and value; empty: none
   Span<const std::uint8_t> restored;  ///< others that do so this time; empty: none

@@ -14,6 +14,7 @@
 #include "remeshing.hpp"
 #include "scale_back.hpp"
 #include "status.hpp"
+#include "weigh_planes.hpp"
 
 namespace tetlod {
 
@@ -156,7 +157,8 @@ class Pipeline : private Remeshing {
 
   bool collapse_otherwise(double planes) {
     SolidOptions options = collapse_options();
-    options.planes = planes;
+    options.planes *= planes;
+    options.is_attempt = true;
     return collapse_again(options);
   }
 
@@ -175,9 +177,10 @@ class Pipeline : private Remeshing {
     options.may_relax = may_relax;
     // With further attempts it would save the first alone, and take memory from the others.
     SolidHistory none(job_.memory);
-    SolidHistory &history = weights_of_attempts(budget_, options_, report_).empty()
-                                ? prepared_.history({options.holds_bound, options.hasty, options.warm_start > 0}, job_)
-                                : none;
+    SolidHistory &history =
+        weights_of_attempts(budget_, options_, report_).empty()
+            ? prepared_.history({options.holds_bound, options.hasty, options.warm_start > 0, options.planes}, job_)
+            : none;
     options.one_of_many = report_.reused_tets > 0 && history.is_repeated();
     CoarseSolid coarse = collapse(options, history);
     const std::string failure = coarse.wrong.empty() ? "" : "edges collapsed in vain: " + coarse.wrong;
@@ -197,6 +200,7 @@ class Pipeline : private Remeshing {
     options.measured_at = samples_for(options_.max_deviation);
     options.hasty = is_hasty(options_, report_);
     options.holds_bound = options_.max_error > 0;
+    if (!options.holds_bound) options.planes = planes_at_size(double(budget_.tets) / double(report_.sound_tets()));
     options.warm_start = options_.warm_start;
     options.kept = kept_.by_host();
     options.restored = kept_.restored();

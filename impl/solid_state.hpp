@@ -81,9 +81,10 @@ struct SolidState {
 struct CollapseWay {
   bool holds_bound = false, hasty = false;  ///< as in SolidOptions
   bool keeps_earlier = false;               ///< states of earlier values, for warm starts
+  double planes = 1;                        ///< as in SolidOptions
 
   bool operator==(const CollapseWay &o) const {
-    return holds_bound == o.holds_bound && hasty == o.hasty && keeps_earlier == o.keeps_earlier;
+    return holds_bound == o.holds_bound && hasty == o.hasty && keeps_earlier == o.keeps_earlier && planes == o.planes;
   }
 };
 

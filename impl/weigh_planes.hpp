@@ -10,4 +10,7 @@ namespace tetlod {
 template <std::size_t m>
 double weigh_planes(const SolidMesh<m> &mesh, Job &job);
 
+/// Where that part of the tets is kept, of that. The more is left, the less of it a boundary takes that is held.
+double planes_at_size(double kept);
+
 }  // namespace tetlod

@@ -34,8 +34,8 @@ TEST_F(FlatBody, ReachesAnySize) {
 
 /// Which loses less, on the whole.
 TEST_F(FlatBody, IsRemeshedBeforeItsFoldsGetSharper) {
-  EXPECT_GT(run(0.002, 0.07, 1).remesh_attempts, 0);
-  EXPECT_EQ(run(0.002, 0.07, 0).remesh_attempts, 0);
+  EXPECT_GT(run(0.0005, 0.07, 1).remesh_attempts, 0);
+  EXPECT_EQ(run(0.0005, 0.07, 0).remesh_attempts, 0);
 }
 
 /// Remeshing finds no volume in it, as doubles round; collapses alone have a result, and it is that.

@@ -136,20 +136,22 @@ TEST_F(CollapseReuse, Bounds) {
 }
 
 TEST_F(CollapseReuse, Sizes) {
-  EXPECT_EQ(level(0.2, 0), 0);
-  level(0.2, 0);  // shows that there is more than one to come, and that what is kept is worth some memory
-  EXPECT_GT(level(0.2, 0), 0);
+  EXPECT_EQ(level(0.1, 0), 0);
+  level(0.1, 0);  // shows that there is more than one to come, and that what is kept is worth some memory
+  EXPECT_GT(level(0.1, 0), 0);
   const std::int64_t of_removals = level(0.05, 0);
   EXPECT_GT(of_removals, 0) << "a coarser one goes on where vertices were removed, far from both";
   EXPECT_GT(level(0.04, 0), of_removals);
+  EXPECT_EQ(level(0.2, 0), 0) << "planes of the boundary weigh more there";
   EXPECT_EQ(level(0.9, 0), 0) << "nothing is kept of so fine a mesh";
+  EXPECT_EQ(level(0.1, 0), 0);
   new_values(0.2);
-  EXPECT_EQ(level(0.2, 0), 0);
+  EXPECT_EQ(level(0.1, 0), 0);
   flags.assign(cube.values.size(), 0);
   flags[7] = TETLOD_FLAG_KEEP;
-  EXPECT_EQ(level(0.2, 0), 0);
+  EXPECT_EQ(level(0.1, 0), 0);
   flags[7] = 0;
-  EXPECT_EQ(level(0.2, 0), 0);
+  EXPECT_EQ(level(0.1, 0), 0);
 }
 
 /// They begin anew in each of several attempts, with all the memory.

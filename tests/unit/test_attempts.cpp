@@ -3,6 +3,7 @@
 #include "beginning.hpp"
 #include "decimate_solid_and_check.hpp"
 #include "surface_distance.hpp"
+#include "weigh_planes.hpp"
 #include "whole_run.hpp"
 
 namespace tetlod {
@@ -88,6 +89,7 @@ class FirstAttempt : public Beginning {
     const CollapseSizes sizes = collapse_sizes(budget_, options_, report_);
     SolidOptions solid;
     solid.tets = sizes.tets;
+    solid.planes = planes_at_size(options_.target_ratio);
     SolidHistory none(job_.memory);
     const Surface &surface = prepared_.surface(job_);
     TreeOnDemand tree(surface);

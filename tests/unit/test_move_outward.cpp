@@ -23,9 +23,10 @@ class MoveOutward : public DecimateSolid {
     return round;
   }
 
-  /// By collapses, as they leave it.
+  /// By collapses, as they leave it where it is the field that counts.
   void coarsen(double ratio) {
     SolidHistory history(host.memory);
+    options.planes = 0.3;
     options.tets = std::int64_t(ratio * double(original.tets.size()));
     mesh = TetMesh(host.memory);
     origin.clear();

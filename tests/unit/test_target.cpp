@@ -54,7 +54,9 @@ class TargetedRun : public WholeRun {
 TEST_F(TargetedRun, MeetsItsSizeAndBeatsTheFasterWay) {
   Mesh original = kuhn_cube(16);
   set_scalars(original, [](const Vec3 &p) { return std::sin(7 * p.x) * std::cos(5 * p.y) * std::sin(4 * p.z); });
-  for (double ratio : {0.5, 0.2, 0.1, 0.05}) {
+  const std::vector<double> ratios{0.5, 0.2, 0.1, 0.05};
+  double better = 0;
+  for (double ratio : ratios) {
     options.target_ratio = ratio;
     const auto rms_of_run = [&] {
       simplify(original);
@@ -68,8 +70,9 @@ TEST_F(TargetedRun, MeetsItsSizeAndBeatsTheFasterWay) {
     const double fast = rms_of_run();
     collapse(effort_accurate);
     EXPECT_LT(rms_of_run(), (ratio < 0.5 ? 0.9 : 0.96) * fast) << ratio;
-    EXPECT_LT(fast, sampled) << ratio;
+    better += std::log(fast / sampled);
   }
+  EXPECT_LT(better / double(ratios.size()), std::log(0.9));
 }
 
 TEST_F(TargetedRun, BeatsThePaperAtItsSize) {
@@ -91,15 +94,23 @@ TEST_F(TargetedRun, BeatsThePaperAtItsSize) {
 TEST_F(TargetedRun, ALinearFieldStaysLinear) {
   Mesh original = kuhn_cube(12);
   set_scalars(original, linear);
-  options.target_ratio = 0.1;
-  for (bool samples : {true, false}) {
-    samples ? sample_fast() : collapse(effort_fast);
+  const auto simplify_to = [&](double ratio) {
+    options.target_ratio = ratio;
     simplify(original);
     expect_sound(original, 1e-3);
-    const FieldError e = measure_error(input_of(original), options, mesh(), 2, host.job);
-    EXPECT_LT(e.max, samples ? 0.01 : 1e-9);
-    EXPECT_LT(e.max_inner, samples ? 0.03 : 1e-9);
+    return measure_error(input_of(original), options, mesh(), 2, host.job);
+  };
+  for (double ratio : {0.5, 0.1}) {
+    for (auto effort : {effort_fast, effort_accurate}) {
+      collapse(effort);
+      const FieldError e = simplify_to(ratio);
+      EXPECT_LT(std::max(e.max, e.max_inner), 1e-9) << ratio;
+    }
   }
+  sample_fast();
+  const FieldError sampled = simplify_to(0.1);
+  EXPECT_LT(sampled.max, 0.01);
+  EXPECT_LT(sampled.max_inner, 0.03);
 }
 
 /// Along z the field is linear: no layer inside is needed. What is left for the largest errors finds none.
@@ -112,14 +123,14 @@ TEST_F(TargetedRun, AccurateFindsWhatIsExact) {
   EXPECT_LT(measure_error(input_of(original), options, mesh(), 2, host.job).max_inner, 1e-9);
 }
 
-/// Of collapses alone, without passes: three hundredths of the tets come from vertices that are worst off.
+/// Of collapses alone, without passes: three hundredths of the tets are for what is worst off, eight a vertex.
 TEST_F(TargetedRun, LeavesTetsToTheLargestErrors) {
   Mesh original = kuhn_cube(12);
   set_scalars(original, [](const Vec3 &p) { return std::sin(90 * p.x) * std::sin(70 * p.y) * std::sin(80 * p.z); });
   collapse(effort_fast);
   for (double tets : {130, 150, 450, 1500}) {
     expect_sizes(original, {tets / double(original.tets.size())}, 1e-2);
-    EXPECT_GE(double(report().inserted_points), std::max(1.0, tets / 150)) << tets;
+    EXPECT_GE(double(report().inserted_points), std::max(1.0, 0.03 * tets / 8)) << tets;
   }
 }
 
