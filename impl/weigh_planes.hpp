@@ -10,7 +10,8 @@ namespace tetlod {
 template <std::size_t m>
 double weigh_planes(const SolidMesh<m> &mesh, Job &job);
 
-/// Where that part of the tets is kept, of that. The more is left, the less of it a boundary takes that is held.
+/// How many times that to a size: where more than a tenth of the tets is kept, the more the larger that part is, as a
+/// boundary that is held takes less of it.
 double planes_at_size(double kept);
 
 }  // namespace tetlod

@@ -52,11 +52,9 @@ class TargetedRun : public WholeRun {
 };
 
 TEST_F(TargetedRun, MeetsItsSizeAndBeatsTheFasterWay) {
-  Mesh original = kuhn_cube(16);
+  Mesh original = kuhn_cube(18);
   set_scalars(original, [](const Vec3 &p) { return std::sin(7 * p.x) * std::cos(5 * p.y) * std::sin(4 * p.z); });
-  const std::vector<double> ratios{0.5, 0.2, 0.1, 0.05};
-  double better = 0;
-  for (double ratio : ratios) {
+  for (double ratio : {0.5, 0.2, 0.1, 0.05}) {
     options.target_ratio = ratio;
     const auto rms_of_run = [&] {
       simplify(original);
@@ -70,9 +68,8 @@ TEST_F(TargetedRun, MeetsItsSizeAndBeatsTheFasterWay) {
     const double fast = rms_of_run();
     collapse(effort_accurate);
     EXPECT_LT(rms_of_run(), (ratio < 0.5 ? 0.9 : 0.96) * fast) << ratio;
-    better += std::log(fast / sampled);
+    EXPECT_LT(fast, sampled) << ratio;
   }
-  EXPECT_LT(better / double(ratios.size()), std::log(0.9));
 }
 
 TEST_F(TargetedRun, BeatsThePaperAtItsSize) {
@@ -123,14 +120,14 @@ TEST_F(TargetedRun, AccurateFindsWhatIsExact) {
   EXPECT_LT(measure_error(input_of(original), options, mesh(), 2, host.job).max_inner, 1e-9);
 }
 
-/// Of collapses alone, without passes: three hundredths of the tets are for what is worst off, eight a vertex.
+/// Of collapses alone, without passes: three hundredths of the tets come from vertices that are worst off.
 TEST_F(TargetedRun, LeavesTetsToTheLargestErrors) {
   Mesh original = kuhn_cube(12);
-  set_scalars(original, [](const Vec3 &p) { return std::sin(90 * p.x) * std::sin(70 * p.y) * std::sin(80 * p.z); });
+  set_scalars(original, [](const Vec3 &p) { return std::sin(60 * p.x) * std::sin(48 * p.y) * std::sin(54 * p.z); });
   collapse(effort_fast);
   for (double tets : {130, 150, 450, 1500}) {
     expect_sizes(original, {tets / double(original.tets.size())}, 1e-2);
-    EXPECT_GE(double(report().inserted_points), std::max(1.0, 0.03 * tets / 8)) << tets;
+    EXPECT_GE(double(report().inserted_points), std::max(1.0, tets / 150)) << tets;
   }
 }
 

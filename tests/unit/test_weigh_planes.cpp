@@ -88,7 +88,7 @@ TEST_F(WeighPlanes, HoldsWallsMoreTheMoreIsKept) {
   }
 }
 
-/// An uneven cube comes less far off, and loses of the field what it can spare.
+/// An uneven cube, of which a half is kept.
 TEST_F(DecimateSolid, WherePlanesWeighMoreWallsStay) {
   Mesh mesh = kuhn_cube(12);
   set_scalars(mesh, waves);
