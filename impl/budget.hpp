@@ -128,14 +128,14 @@ inline bool is_whole(const Budget &budget, const Options &options, const Report 
 
 /// Where edges collapse, a bound without a size begins where the largest error is about twice the bound, which takes
 /// fewer tets in the end than other beginnings: when collapses cost more than the square of so many times the bound, of
-/// the diagonal; by experience. With looser bounds than that, and with a smaller part of the tets, the shape would
-/// suffer; above the larger part, insertions where they are needed take fewer.
+/// the diagonal; by experience. With looser bounds than that, and with a smaller part of the tets, unless these are
+/// many, the shape would suffer; above the larger part, insertions where they are needed take fewer.
 inline Budget budget_for_bound(double max_error, double diagonal, const Report &report) {
-  constexpr double cost_of_bound = 50, loosest = 0.04, least = 0.01, enough = 0.15;
+  constexpr double cost_of_bound = 50, loosest = 0.04, least = 0.01, many = 2000, enough = 0.15;
   Budget budget = budget_of(first_ratio, report);
   const double whole = double(budget.tets) / first_ratio,
                length = cost_of_bound * std::min(max_error, loosest) * diagonal;
-  budget.least = std::int64_t(least * whole);
+  budget.least = std::int64_t(std::min(least * whole, many));
   budget.enough = std::int64_t(enough * whole);
   budget.dearest = length * length;
   return budget;

@@ -5,9 +5,9 @@
 #include <numeric>
 
 #include "boundary_tree.hpp"
-#include "kd_tree.hpp"
 #include "random_place.hpp"
 #include "sort_by_place.hpp"
+#include "tet_locator.hpp"
 #include "whole_arrays.hpp"
 
 namespace tetlod {
@@ -25,7 +25,6 @@ constexpr double vertices_a_tet = 8, inner_a_tet = 8, vertices_without_rounds = 
 /// where rounds serve both.
 constexpr double weight_of_vertex = 2, more_with_a_round = 0.5;
 constexpr std::size_t block = 1024;
-constexpr int longest_walk = 200;
 
 /// Of the values at the corners of t.
 template <std::size_t m>
@@ -127,118 +126,6 @@ void add_inner(const MeshView &original, double most, Job &job, Array<Probe<m>> 
   });
 }
 
-/// Whether those side by side in memory are so in space, of a sample.
-template <class Place>
-bool are_near(std::size_t count, const Place &place) {
-  constexpr std::size_t enough = 1024;
-  constexpr double near = 0.05;  // of the diagonal; places anywhere are 0.3 apart
-  Box box;
-  double way = 0;
-  std::size_t looked_at = 0;
-  for (std::size_t i = 1; i < count; i += count / enough + 1, looked_at++) {
-    way += glm::distance(place(i - 1), place(i));
-    box.add(place(i));
-  }
-  return way <= near * box.diagonal() * double(looked_at);
-}
-
-/// Neighbours in space after each other: as they are, or else sorted.
-template <class Place>
-Array<std::int32_t> order_in_space(std::size_t count, const Place &place, Job &job) {
-  if (!are_near(count, place)) return order_by_place(count, place, job);
-  Array<std::int32_t> order = array_of(count, 0, job);
-  std::iota(order.begin(), order.end(), 0);
-  return order;
-}
-
-/// Finds tets by walking, and where the walk meets the boundary, by a tree.
-class Locator {
- public:
-  Locator(const TetComplex &mesh, Job &job)
-      : mesh_(mesh),
-        frames_(&job.memory),
-        order_(order_of(mesh, job)),
-        together_(tets_an_item(mesh.tets.size())),
-        tree_(job.memory) {
-    while (!mesh.alive(start_)) start_++;
-    Array<Box> boxes(order_.size() / together_ + 1, &job.memory);
-    grow(frames_, mesh.tets.size(), job);
-    job.parallel.for_blocks(order_.size(), block, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; i++)
-        if (mesh.alive(order_[i])) add(order_[i], boxes[i / together_]);
-      job.poll(0.1);
-    });
-    tree_.build(std::move(boxes), leaf, job, 0.1);
-  }
-
-  /// The tet of p, searched from tet `hint` on, or, where that is -1, from anywhere; -1 outside.
-  std::int32_t find(const Vec3 &p, std::int32_t hint) const {
-    const std::int32_t t = walk(p, hint >= 0 ? hint : start_);
-    return t >= 0 ? t : search(p);
-  }
-
- private:
-  static constexpr std::int64_t leaf = 16;
-
-  /// Those that were inserted one after another are anywhere.
-  static Array<std::int32_t> order_of(const TetComplex &mesh, Job &job) {
-    const auto place = [&](std::size_t t) { return mesh.points[std::size_t(mesh.tets[t][1])]; };  // of free slots, too
-    return order_in_space(mesh.tets.size(), place, job);
-  }
-
-  /// How many tets, side by side in space, are one item of the tree: of many tets, few points go down the tree. No two
-  /// blocks have tets of one item.
-  static std::size_t tets_an_item(std::size_t tets) {
-    constexpr std::size_t most_items = 20000;
-    std::size_t together = 1;
-    while (together < block && tets > together * most_items) together *= 2;
-    return together;
-  }
-
-  void add(std::int32_t t, Box &box) {
-    frames_[std::size_t(t)] = mesh_.frame(t);
-    box.add(with_rounding(box_of<4>(mesh_.points, mesh_.tets[std::size_t(t)])));
-  }
-
-  std::int32_t walk(const Vec3 &p, std::int32_t t) const {
-    for (int step = 0; step < longest_walk; step++) {
-      double w[4];
-      if (frames_[std::size_t(t)].is_flat()) return -1;
-      const double least = frames_[std::size_t(t)].weights(p, w);
-      if (least >= 0) return t;
-      const std::int32_t next = mesh_.neighbours[std::size_t(t)][std::size_t(std::min_element(w, w + 4) - w)];
-      if (next < 0) return least >= -out_by_rounding ? t : -1;
-      t = next;
-    }
-    return -1;
-  }
-
-  std::int32_t search(const Vec3 &p) const {
-    double best = -out_by_rounding;
-    std::int32_t found = -1;
-    tree_.any_overlap({p, p}, [&](std::int32_t item) {
-      const std::size_t first = std::size_t(item) * together_;
-      for (std::size_t i = first; i < std::min(first + together_, order_.size()) && best < 0; i++) {
-        double w[4];
-        const std::int32_t t = order_[i];
-        const double least = mesh_.alive(t) ? frames_[std::size_t(t)].weights(p, w) : -1;
-        if (least <= best) continue;
-        best = least;
-        found = t;
-      }
-      return best >= 0;
-    });
-    return found;
-  }
-
-  const TetComplex &mesh_;
-  std::int32_t start_ = 0;
-  Array<TetFrame> frames_;
-  Array<std::int32_t> order_;
-  std::size_t together_;
-  KdTree tree_;
-};
-
 /// The nearest point of the boundary, of a point that was found in no tet (t is -1), or a little outside of tet t, and
 /// of all, as that point is no farther off. Where it is farther, rounding has left a gap between tets: none then.
 NearestPoint nearest_if_outside(const TetComplex &mesh, std::int32_t t, const Vec3 &p, const TriangleTree &boundary) {
@@ -280,7 +167,7 @@ Array<std::int32_t> find_homes(Job &job, AdaptiveMesh<m> &mesh) {
   };
   append(0, mesh.vertex_probes);
   append(mesh.vertex_probes, mesh.probes.size());
-  const Locator locator(mesh, job);
+  const TetLocator locator(mesh, job);
   Array<Array<std::int32_t>> outside_of_block(home.size() / block + 1, &job.memory);
   job.parallel.for_blocks(home.size(), block, [&](std::size_t begin, std::size_t end) {
     std::int32_t hint = -1;

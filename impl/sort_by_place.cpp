@@ -49,6 +49,20 @@ void sort_by_digit(const Array<Coded> &codes, int shift, Job &job, Array<Coded> 
   }
 }
 
+/// Whether those side by side in memory are so in space, of a sample.
+bool are_near(std::size_t count, const std::function<Vec3(std::size_t)> &place) {
+  constexpr std::size_t enough = 1024;
+  constexpr double near = 0.05;  // of the diagonal; places anywhere are 0.3 apart
+  Box box;
+  double way = 0;
+  std::size_t looked_at = 0;
+  for (std::size_t i = 1; i < count; i += count / enough + 1, looked_at++) {
+    way += glm::distance(place(i - 1), place(i));
+    box.add(place(i));
+  }
+  return way <= near * box.diagonal() * double(looked_at);
+}
+
 }  // namespace
 
 Array<std::int32_t> order_by_place(std::size_t count, const std::function<Vec3(std::size_t)> &place, Job &job) {
@@ -67,6 +81,13 @@ Array<std::int32_t> order_by_place(std::size_t count, const std::function<Vec3(s
   Array<std::int32_t> order(&job.memory);
   order.reserve(codes.size());
   for (const Coded &of : codes) order.push_back(of.number);
+  return order;
+}
+
+Array<std::int32_t> order_in_space(std::size_t count, const std::function<Vec3(std::size_t)> &place, Job &job) {
+  if (!are_near(count, place)) return order_by_place(count, place, job);
+  Array<std::int32_t> order = array_of(count, 0, job);
+  std::iota(order.begin(), order.end(), 0);
   return order;
 }
 

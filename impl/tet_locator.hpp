@@ -1,0 +1,36 @@
+// Which tet of a mesh whose connectivity changes holds a point.
+#pragma once
+#include "kd_tree.hpp"
+#include "tet_complex.hpp"
+
+namespace tetlod {
+
+/// Finds tets by walking, and where the walk meets the boundary, by a tree. For as long as the mesh stays as it is.
+class TetLocator {
+ public:
+  TetLocator(const TetComplex &mesh, Job &job);
+
+  /// The tet of p, searched from tet `hint` on, or, where that is -1, from anywhere; -1 outside.
+  std::int32_t find(const Vec3 &p, std::int32_t hint) const;
+
+  /// How many of the tree's items hold a place in the box of all, on the average: what a search costs where a walk does
+  /// not do.
+  double items_at_a_place() const { return items_at_a_place_; }
+
+ private:
+  Array<Box> boxes_of_items(Job &job) const;
+  template <class Visit>
+  void for_tets(std::size_t item, const Visit &visit) const;
+  std::int32_t walk(const Vec3 &p, std::int32_t t) const;
+  std::int32_t search(const Vec3 &p) const;
+
+  const TetComplex &mesh_;
+  std::int32_t start_ = 0;
+  Array<TetFrame> frames_;
+  Array<std::int32_t> order_;  ///< of the tets
+  std::size_t together_;       ///< how many of these, one after another, are one item of the tree
+  double items_at_a_place_;
+  KdTree tree_;
+};
+
+}  // namespace tetlod
