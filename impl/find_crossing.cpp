@@ -7,6 +7,7 @@
 #include "predicates.hpp"
 #include "status.hpp"
 #include "surface_distance.hpp"
+#include "surface_topology.hpp"
 
 namespace tetlod {
 
@@ -25,10 +26,16 @@ bool cross(const Surface &surface, std::int32_t a, std::int32_t b) {
 }
 
 /// What the host calls the corners of a triangle.
-std::array<long long, 3> names(const Surface &surface, std::int32_t triangle, std::int32_t index_base) {
-  const HostNumbers numbers = host_numbers(surface, index_base);
+std::array<long long, 3> names(const Surface &surface, std::int32_t triangle, const HostNumbers &numbers) {
   const Triangle &t = surface.triangles[std::size_t(triangle)];
   return {numbers.vertex(t[0]), numbers.vertex(t[1]), numbers.vertex(t[2])};
+}
+
+/// Whether two triangles are of one solid, or cavity.
+bool hang_together(const Surface &surface, std::int32_t a, std::int32_t b, const HostNumbers &numbers, Job &job) {
+  SurfaceTopology topology(job.memory);
+  find_topology(surface.points, surface.triangles, job, topology, numbers);
+  return topology.component[std::size_t(a)] == topology.component[std::size_t(b)];
 }
 
 }  // namespace
@@ -58,10 +65,12 @@ std::pair<std::int32_t, std::int32_t> find_crossing(const Surface &surface, Tree
 void refuse_crossing(const Surface &surface, TreeOnDemand &tree, std::int32_t index_base, Job &job) {
   const auto [a, b] = find_crossing(surface, tree, job);
   if (a < 0) return;
-  const std::array<long long, 3> first = names(surface, a, index_base), second = names(surface, b, index_base);
-  fail(Status::mesh_intersecting,
-       "the boundary crosses or touches itself: its faces of vertices %lld, %lld, %lld and of vertices %lld, %lld, "
-       "%lld meet",
+  const HostNumbers numbers = host_numbers(surface, index_base);
+  const std::array<long long, 3> first = names(surface, a, numbers), second = names(surface, b, numbers);
+  fail(Status::mesh_intersecting, "%s of vertices %lld, %lld, %lld and of vertices %lld, %lld, %lld meet",
+       hang_together(surface, a, b, numbers, job)
+           ? "the boundary crosses or touches itself: its faces"
+           : "components of the boundary cross or touch, as of solids in contact: their faces",
        first[0], first[1], first[2], second[0], second[1], second[2]);
 }
 

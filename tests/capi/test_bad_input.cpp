@@ -196,6 +196,18 @@ TEST(Messages, NameVerticesAndTetsAsTheHostDoes) {
   EXPECT_NE(told(wedges, 0, TETLOD_ERR_MESH_INTERSECTING).find("edge from vertex 7 to vertex 8"), std::string::npos);
 }
 
+/// Of an assembly each part alone could be simplified, of a body that crosses itself none.
+TEST(Messages, TellSolidsInContactFromABodyThatCrossesItself) {
+  EXPECT_EQ(told(shifted(1, 0.25, 0.125), 0, TETLOD_ERR_MESH_INTERSECTING).find("components of the boundary"), 0u);
+  // Bent around an axis and beyond.
+  Cube ring = placed(6, [](double *p) {
+    const double angle = 7 * p[0], radius = 1 + p[1] / 3;
+    p[0] = radius * std::cos(angle);
+    p[1] = radius * std::sin(angle);
+  });
+  EXPECT_EQ(told(ring, 0, TETLOD_ERR_MESH_INTERSECTING).find("the boundary crosses or touches itself"), 0u);
+}
+
 INSTANTIATE_TEST_SUITE_P(Each, BadInputs, testing::ValuesIn(inputs),
                          [](const auto &info) { return std::string(info.param.name); });
 
