@@ -116,7 +116,8 @@ FieldError measure_error(const MeshView &original, double range, const TetMesh &
                          std::uint64_t seed, Job &job) {
   const Field field(result, job);
   const double unit = range > 0 ? std::min(range, std::numeric_limits<double>::max()) : 1;
-  const Array<std::uint8_t> used = find_used(original.tets, original.points.size(), job);
+  Array<std::uint8_t> room(&job.memory);
+  const Span<const std::uint8_t> used = used_points(original, job, room);
   const Tally at_vertices = tally_blocks(original.points.size(), job, 0, [&](std::size_t v, Tally &tally) {
     if (used[v]) tally.add(field, original.points[v], original.scalars[v * original.fields], unit);
   });

@@ -48,6 +48,7 @@ struct MeshView {
   Span<const Tet> tets;
   std::size_t fields = 1;
   FieldScales scales{};
+  Span<const std::uint8_t> used{};  ///< of each point, whether a tet has it; empty: nobody has looked
 
   template <std::size_t m>
   Span<const Values<m>> values() const {

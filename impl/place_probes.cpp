@@ -48,7 +48,8 @@ std::size_t taken(double due) { return std::size_t(0.5 + due); }
 
 template <std::size_t m>
 void add_vertices(const MeshView &original, double most, Job &job, AdaptiveMesh<m> &mesh) {
-  const Array<std::uint8_t> used = find_used(original.tets, original.points.size(), job);
+  Array<std::uint8_t> room(&job.memory);
+  const Span<const std::uint8_t> used = used_points(original, job, room);
   const auto count = double(std::count(used.begin(), used.end(), 1));
   const double share = mesh.share_of_vertices = std::min(1.0, most / count);
   const Span<const Values<m>> values = original.values<m>();

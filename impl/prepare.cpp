@@ -190,12 +190,11 @@ Box check_used_points(const Input &input, const Options &options, Job &job, Orig
 
 /// Of what is left: a point whose tets were all dropped is none of the mesh's.
 void measure(const Input &input, Job &job, Original &original) {
-  const Array<std::uint8_t> &counts = original.left.empty() ? original.used : original.left;
   Ranges ranges;
   original.box = {};
-  for (std::size_t v = 0; v < counts.size(); v++) {
+  for (std::size_t v = 0; v < original.view.used.size(); v++) {
     job.poll_at(v, 0.9);
-    if (!counts[v]) continue;
+    if (!original.view.used[v]) continue;
     add_values(original.view, v, ranges);
     original.box.add(original.view.points[v]);
   }
@@ -208,6 +207,7 @@ void take_tets(Array<Tet> &&tets, Array<std::int32_t> &&numbers, Job &job, Origi
   original.tet_number = std::move(numbers);
   original.view.tets = original.tets;
   original.left = find_used(original.view.tets, original.view.points.size(), job);
+  original.view.used = original.left;
 }
 
 /// Renames merged vertices and leaves out the tets that have a vertex twice or one that is not used.
@@ -314,6 +314,7 @@ void prepare_original(const Input &input, const Options &options, Job &job, Orig
   read_values(input, job, original);
   original.view.tets = read_tets(input, job, original.tets);
   original.used = find_used(original.view.tets, original.view.points.size(), job);
+  original.view.used = original.used;
   const Box submitted = scale_extreme_coordinates(check_used_points(input, options, job, original), job, original);
 
   // The diagonal here is that of what was submitted: which tets are left is not known before points are merged.

@@ -28,7 +28,7 @@ struct Original {
   Array<std::int32_t> tet_number;     ///< of each tet among the submitted ones; empty: none was dropped
   Array<std::uint8_t> flags;          ///< of each vertex, those of points that became it included; empty: none are set
   Array<std::uint8_t> used;           ///< of each submitted point: a submitted tet has it, and all of it is finite
-  Array<std::uint8_t> left;           ///< of each: a tet of the view has it; empty: those that are used
+  Array<std::uint8_t> left;           ///< of each: a tet of the view has it; empty: none was dropped
   std::int64_t merged_points = 0;     ///< coincident points that became one
   std::int64_t nonfinite_points = 0;  ///< without a finite value, ignored with their tets
   std::int64_t dropped_tets = 0;      ///< with such a point, or with a repeated vertex, as submitted or after merging

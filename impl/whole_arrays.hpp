@@ -68,9 +68,17 @@ inline Array<std::uint8_t> find_used(Span<const Tet> tets, std::size_t points, J
   return used;
 }
 
+/// The same, where it is known, or in `room`.
+inline Span<const std::uint8_t> used_points(const MeshView &mesh, Job &job, Array<std::uint8_t> &room) {
+  if (!mesh.used.empty()) return mesh.used;
+  room = find_used(mesh.tets, mesh.points.size(), job);
+  return room;
+}
+
 /// The points that tets have, ascending. Others' coordinates and values may be no numbers.
 inline Array<std::int32_t> used_vertices(const MeshView &mesh, Job &job) {
-  const Array<std::uint8_t> used = find_used(mesh.tets, mesh.points.size(), job);
+  Array<std::uint8_t> room(&job.memory);
+  const Span<const std::uint8_t> used = used_points(mesh, job, room);
   Array<std::int32_t> vertices(&job.memory);
   vertices.reserve(used.size());
   for (std::size_t v = 0; v < used.size(); v++)
