@@ -66,8 +66,8 @@ constexpr double tets_a_sample = 6.5, tets_a_boundary_point = 3;
 /// Of a result with a target: tets over points; and over the parts of the original in which the field is linear, as far
 /// as the bound of the error asks for it.
 constexpr double tets_a_point = 4.5, tets_a_part = 6.5;
-/// Share of the tets that is left to the vertices that refine() inserts.
-constexpr double spare = 0.05;
+/// Share of the tets that is left to the vertices that refine() inserts; and that the boundary may have in any case.
+constexpr double spare = 0.05, part_for_coarse_boundary = 0.05;
 constexpr int most_rounds = 6, most_restorations = 4;
 /// What is beyond the size by more misses it.
 constexpr double most_excess = 1.03;
@@ -95,7 +95,9 @@ inline Budget budget_of(double ratio, const Report &report) {
   const double inside = tets_a_sample * ratio * double(report.interior_points_in);
   const double share = std::max(0.6 * double(budget.tets), (1 - spare) * double(budget.tets) - inside);
   const double most = share * 2 / tets_a_boundary_point;
-  const double kept = std::min(boundary_share(ratio) * triangles, most);
+  // A coarse boundary around a fine inside stays: that takes few of the tets, and hardly a triangle could go.
+  const double few = part_for_coarse_boundary * double(budget.tets) * 2 / tets_a_boundary_point;
+  const double kept = std::min({std::max(boundary_share(ratio) * triangles, few), most, triangles});
   budget.sigma = kept / triangles;
   const double left = (1 - spare) * double(budget.tets) - kept / 2 * tets_a_boundary_point;
   budget.samples = std::size_t(std::max(left / tets_a_sample, 0.0));

@@ -158,11 +158,18 @@ CoarseSolid decimate_with_care(const OriginalSolid &original, SolidOptions optio
   return best;
 }
 
-/// The mesh is the last one of collapses, and its boundary farther off than `far`: ends of thin parts slide within
-/// their own planes, where nothing holds them.
+/// Nothing is wrong with the mesh, or what the caller may take all the same: what relaxed rules led to, or about the
+/// size.
+bool may_be_taken(const CoarseSolid &coarse, const SolidOptions &options) {
+  constexpr double about = hardly_more * hardly_more;
+  const bool has_size = double(coarse.mesh.tets.size()) <= about * double(options.tets);
+  return coarse.is_sound && (coarse.wrong.empty() || options.may_relax || has_size);
+}
+
+/// The boundary is farther off than `far`: ends of thin parts slide within their own planes, where nothing holds them.
 bool went_astray(const CoarseSolid &coarse, const SolidOptions &options, double far) {
-  const bool is_last = coarse.wrong.empty() || options.may_relax, has_limit = options.max_deviation > 0;
-  return coarse.is_sound && is_last && !has_limit && options.enough == 0 && coarse.deviation > far;
+  const bool has_limit = options.max_deviation > 0;
+  return may_be_taken(coarse, options) && !has_limit && options.enough == 0 && coarse.deviation > far;
 }
 
 bool is_nearer(const CoarseSolid &a, const CoarseSolid &b, std::int64_t size) {

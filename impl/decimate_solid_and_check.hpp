@@ -30,9 +30,9 @@ struct CoarseSolid {
 /// no limit to the deviation, the second alone, with no more and of what is far off, where that leaves the mesh sound;
 /// if it does not, with moves that are guarded against crossings. options.touching is found here. The sound outcome of
 /// fewest tets, else the last; of a given size, where the boundary is more than twice far_off away and collapses were
-/// not stuck, or could relax, one within that with hardly more tets, if there is one. What may be wrong: a tet is not
-/// positive, tets overlap, the boundary crosses itself or has another topology, solids are nested, or the size is
-/// missed by more than 1 %.
+/// not stuck far from it, or could relax, one within that with hardly more tets, if there is one. What may be wrong: a
+/// tet is not positive, tets overlap, the boundary crosses itself or has another topology, solids are nested, or the
+/// size is missed by more than 1 %.
 CoarseSolid decimate_solid_and_check(const OriginalSolid &original, SolidOptions options, std::int64_t lowered,
                                      SolidHistory &history, Job &job);
 

@@ -80,7 +80,7 @@ class Pipeline : private Remeshing {
     CoarseSolid coarse(job_.memory);
     mesh_.tets.clear();
     if (!collapses_edges(options_, report_)) {
-      if (!remesh_to_target(worker) && options_.clean_edges == 0) collapse_edges(true, coarse);
+      if (!remesh_in_place_of(coarse, worker) && options_.clean_edges == 0) collapse_in_place_of_remeshed(coarse);
     } else if (!collapse_edges(false, coarse)) {
       ladder_ = coarse.is_sound ? Ladder::first_rung : Ladder::whole;
       const bool serves = may_remesh(coarse) && remesh_in_place_of(coarse, worker);
@@ -104,6 +104,15 @@ class Pipeline : private Remeshing {
     bool met = false;
     if (!attempt_in_memory(job_, [&] { met = remesh_to_target(worker); })) mesh_.tets.clear();
     return met && report_.max_deviation <= far_off;
+  }
+
+  /// Where remeshing led to the size, but far off, that serves as well.
+  void collapse_in_place_of_remeshed(CoarseSolid &coarse) {
+    const auto collapse = [&] { collapse_edges(true, coarse); };
+    if (mesh_.tets.empty())
+      collapse();
+    else
+      attempt_in_memory(job_, collapse);
   }
 
   /// Of two of the size the nearer one, where remeshing led far off, else the smaller one.

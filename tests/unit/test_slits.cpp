@@ -60,6 +60,20 @@ TEST_F(Slits, KeepTheirLength) {
     }
 }
 
+/// Where collapses stop a little before the size, which serves as well.
+TEST_F(Slits, KeepTheirLengthWhereTheSizeIsNearlyMet) {
+  options.effort = effort_fast;
+  options.remesh = false;
+  for (const auto &[n, ratio] : {std::pair(8, 0.137177), {12, 0.141807}, {14, 0.139886}}) {
+    start_with(n, 3, waves);
+    options.target_ratio = ratio;
+    simplify(slab);
+    expect_sound(slab, 0.01);
+    EXPECT_LT(report().max_deviation, 2 * far_off) << n;
+    EXPECT_LT(double(report().tets_out), 1.03 * ratio * double(tets())) << n;
+  }
+}
+
 /// Collapses that are made again to come nearer, and TetGen where they miss the size, take more than the first.
 TEST_F(Slits, WhatAMemoryLimitRefusesIsLeftOut) {
   start_with(12, 4, two_waves);

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <limits>
 
+#include "decimate_solid_and_check.hpp"
 #include "whole_run.hpp"
 
 namespace tetlod {
@@ -160,6 +161,37 @@ TEST_F(TargetedRun, LittleOfALargeMesh) {
   ::unsetenv("FAKE_REMESH_FAILURES");
   ::unsetenv("FAKE_REMESH");
   EXPECT_EQ(::unlink(failures.c_str()), 0);  // it was asked
+}
+
+/// Each tet in four, so that the boundary stays as it is.
+Mesh refined_inside(const Mesh &mesh) {
+  Mesh finer{mesh.points, {}, {}};
+  for (const Tet &t : mesh.tets) {
+    const auto middle = std::int32_t(finer.points.size());
+    Vec3 sum(0);
+    for (std::int32_t v : t) sum += mesh.points[std::size_t(v)];
+    finer.points.push_back(0.25 * sum);
+    for (std::size_t k = 0; k < 4; k++) {
+      finer.tets.push_back(t);
+      finer.tets.back()[k] = middle;
+    }
+  }
+  return finer;
+}
+
+/// A cube that has 48 triangles around 200,000 tets was made a single tet, of its volume.
+TEST_F(TargetedRun, KeepsTheShapeOfACoarseBoundaryAroundAFineInside) {
+  Mesh original = kuhn_cube(2);
+  for (int i = 0; i < 6; i++) original = refined_inside(original);
+  set_scalars(original, waves);
+  options.effort = effort_fast;
+  for (double ratio : {0.02, 0.001}) {
+    options.target_ratio = ratio;
+    simplify(original);
+    expect_sound(original, 1e-3);
+    expect_size(original);
+    EXPECT_LT(report().max_deviation, far_off) << ratio;
+  }
 }
 
 TEST_F(TargetedRun, AConstantField) {
