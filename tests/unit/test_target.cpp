@@ -194,6 +194,17 @@ TEST_F(TargetedRun, KeepsTheShapeOfACoarseBoundaryAroundAFineInside) {
   }
 }
 
+/// Samples lead far off there, collapses do not: a plate with nine pins.
+TEST_F(TargetedRun, KeepsThePinsOfAPlateWhereNextToNothingIsLeft) {
+  Mesh original = kuhn_solid({48, 48, 20}, [](const Cell &c) { return c[2] < 10 || (c[0] % 16 < 8 && c[1] % 16 < 8); });
+  set_scalars(original, waves);
+  options.effort = effort_fast;
+  options.target_ratio = 0.002;
+  simplify(original);
+  expect_size(original);
+  EXPECT_LT(report().max_deviation, far_off);
+}
+
 TEST_F(TargetedRun, AConstantField) {
   Mesh original = kuhn_cube(8);
   set_scalars(original, [](const Vec3 &) { return 7.5; });
