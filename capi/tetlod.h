@@ -403,7 +403,7 @@ TETLOD_API tetlod_status tetlod_clear(tetlod_context *context);
 TETLOD_API tetlod_status tetlod_check(tetlod_context *context, tetlod_mesh_report *out);
 /* Estimates tetlod_run_report.peak_bytes of a tetlod_run with what is submitted and the options as they are: within a
  * factor of 1.5 where the mesh is sound and its topology allows the size; two and a half times as much may be taken
- * where it does not, collapses lead far off, or a bound restores vertices, a third where what is kept is reused.
+ * where it does not, the boundary comes far off, or a bound restores vertices, a third where what is kept is reused.
  * TETLOD_ERR_STATE, what tetlod_run() says of a bad mesh or of ranges, _MEMORY_LIMIT, _CANCELLED, _TIME_LIMIT. */
 TETLOD_API tetlod_status tetlod_estimate_memory(tetlod_context *context, uint64_t *bytes);
 
