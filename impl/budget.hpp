@@ -87,6 +87,9 @@ inline double field_weight_of(const Report &report) {
 /// A surface has fewer triangles to lose than its solid has tets, and less to lose them for.
 inline double boundary_share(double ratio) { return std::pow(ratio, 0.8); }
 
+/// Of a boundary that so many tets are spent on: a vertex has two triangles.
+inline double triangles_for(double tets) { return 2 * tets / tets_a_boundary_point; }
+
 inline Budget budget_of(double ratio, const Report &report) {
   Budget budget;
   const double whole = double(report.sound_tets()), triangles = double(report.boundary_triangles_in);
@@ -94,10 +97,9 @@ inline Budget budget_of(double ratio, const Report &report) {
   // Of the tets; of a mesh that is nearly all boundary, what the few vertices inside leave.
   const double inside = tets_a_sample * ratio * double(report.interior_points_in);
   const double share = std::max(0.6 * double(budget.tets), (1 - spare) * double(budget.tets) - inside);
-  const double most = share * 2 / tets_a_boundary_point;
   // A coarse boundary around a fine inside stays: that takes few of the tets, and hardly a triangle could go.
-  const double few = part_for_coarse_boundary * double(budget.tets) * 2 / tets_a_boundary_point;
-  const double kept = std::min({std::max(boundary_share(ratio) * triangles, few), most, triangles});
+  const double few = triangles_for(part_for_coarse_boundary * double(budget.tets));
+  const double kept = std::min({std::max(boundary_share(ratio) * triangles, few), triangles_for(share), triangles});
   budget.sigma = kept / triangles;
   const double left = (1 - spare) * double(budget.tets) - kept / 2 * tets_a_boundary_point;
   budget.samples = std::size_t(std::max(left / tets_a_sample, 0.0));

@@ -54,11 +54,10 @@ TetLocator::TetLocator(const TetComplex &mesh, Job &job)
   const auto place = [&](std::size_t t) { return mesh.points[std::size_t(mesh.tets[t][1])]; };  // of free slots, too
   order_ = order_in_space(mesh.tets.size(), place, job);
   Array<Box> boxes = boxes_of_items(job);
-  if (together_ > 1 && boxes_at_a_place(boxes) > most_at_a_place) {
+  if (together_ > 1 && items_at_a_place_ > most_at_a_place) {
     order_ = order_by_place(mesh.tets.size(), place, job);
     boxes = boxes_of_items(job);
   }
-  items_at_a_place_ = boxes_at_a_place(boxes);
   tree_.build(std::move(boxes), leaf, job, 0.1);
 }
 
@@ -67,8 +66,9 @@ std::int32_t TetLocator::find(const Vec3 &p, std::int32_t hint) const {
   return t >= 0 ? t : search(p);
 }
 
-Array<Box> TetLocator::boxes_of_items(Job &job) const {
-  return boxes_of(order_.size() / together_ + 1, job, [&](std::size_t item) {
+/// And how many of them hold a place.
+Array<Box> TetLocator::boxes_of_items(Job &job) {
+  Array<Box> boxes = boxes_of(order_.size() / together_ + 1, job, [&](std::size_t item) {
     Box box;
     for_tets(item, [&](std::int32_t t) {
       box.add(with_rounding(box_of<4>(mesh_.points, mesh_.tets[std::size_t(t)])));
@@ -76,6 +76,8 @@ Array<Box> TetLocator::boxes_of_items(Job &job) const {
     });
     return box;
   });
+  items_at_a_place_ = boxes_at_a_place(boxes);
+  return boxes;
 }
 
 /// Of an item, until visit says no.

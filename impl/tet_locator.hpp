@@ -18,7 +18,7 @@ class TetLocator {
   double items_at_a_place() const { return items_at_a_place_; }
 
  private:
-  Array<Box> boxes_of_items(Job &job) const;
+  Array<Box> boxes_of_items(Job &job);
   template <class Visit>
   void for_tets(std::size_t item, const Visit &visit) const;
   std::int32_t walk(const Vec3 &p, std::int32_t t) const;

@@ -179,7 +179,7 @@ Mesh refined_inside(const Mesh &mesh) {
   return finer;
 }
 
-/// A cube that has 48 triangles around 200,000 tets was made a single tet, of its volume.
+/// A cube that has 48 triangles around 200,000 tets became a tetrahedron of its volume.
 TEST_F(TargetedRun, KeepsTheShapeOfACoarseBoundaryAroundAFineInside) {
   Mesh original = kuhn_cube(2);
   for (int i = 0; i < 6; i++) original = refined_inside(original);
