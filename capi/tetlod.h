@@ -84,7 +84,7 @@ enum {
   TETLOD_ERR_MESH_NONFINITE = 32,    /* NaN or infinity in a coordinate or value */
   TETLOD_ERR_MESH_DEGENERATE = 33,   /* no volume, also as doubles round, an extent of 0, or what a policy refuses */
   TETLOD_ERR_MESH_NONMANIFOLD = 34,  /* a face with more than two tets */
-  TETLOD_ERR_MESH_INTERSECTING = 35, /* the boundary crosses or touches itself, or tets overlap */
+  TETLOD_ERR_MESH_INTERSECTING = 35, /* the boundary crosses or touches itself (tetlod_run), or tets overlap */
   TETLOD_ERR_MESH_PARTITION = 36,    /* reserved for partitioned meshes */
   TETLOD_ERR_MESH_TOO_LARGE = 37,    /* 2^29 points or tets, or more; 2^31 / 3 boundary triangles */
   /* the remesher */
@@ -305,7 +305,7 @@ enum {
   TETLOD_OPT_ON_INVERTED = 15,  /* "on-inverted": take the tets the other way round; TETLOD_ERR_MESH_DEGENERATE */
   TETLOD_OPT_ON_DUPLICATE = 16, /* "on-duplicate": drop the later tets; TETLOD_ERR_MESH_INTERSECTING */
   TETLOD_OPT_ON_OVERLAP = 17,   /* "on-overlap": neighbours on one side of their face are kept where they do not reach
-                                   the boundary; TETLOD_ERR_MESH_INTERSECTING */
+                                   the boundary, and solids in contact (tetlod_run); TETLOD_ERR_MESH_INTERSECTING */
   TETLOD_OPT_ON_UNUSED = 18,    /* "on-unused": ignore the points; TETLOD_ERR_MESH_DEGENERATE */
   TETLOD_OPT_ON_NONFINITE = 19, /* "on-nonfinite": ignore points without a finite value, with their tets;
                                    TETLOD_ERR_MESH_NONFINITE, the default */
@@ -413,8 +413,7 @@ TETLOD_API tetlod_status tetlod_estimate_memory(tetlod_context *context, uint64_
  * The result replaces the previous one on success alone.
  *
  * TETLOD_ERR_STATE          points, tets or scalars are missing
- * TETLOD_ERR_ARGUMENT       as many scalars as points are needed, and values of what steers beside them; of other
- *                           fields as many tuples as points or tets
+ * TETLOD_ERR_ARGUMENT       a point lacks its scalar or what steers, or a point or a tet its tuple of another field
  * TETLOD_ERR_MESH_*, TETLOD_ERR_MEMORY_LIMIT, _CANCELLED, _TIME_LIMIT, _REMESH, _BACKEND_MISSING, _MAX_ERROR
  *
  * A run takes over from earlier ones of its context, with its own bytes but where TETLOD_OPT_WARM_START allows others,
@@ -431,7 +430,8 @@ TETLOD_API tetlod_status tetlod_estimate_memory(tetlod_context *context, uint64_
  *
  * Guarantees of a result: every tet has a positive volume, every face is used by one or two tets, the boundary is
  * closed, does not cross itself and has the components and the Euler characteristic of the original's, every value lies
- * within the original's range. Where edges of the solid collapse (remesh_attempts 0) the volume changes by 1 % at most.
+ * within the original's range. Where edges of the solid collapse (remesh_attempts 0) the volume changes by 1 % at most,
+ * and solids in contact (or in each other by 0.001 of the diagonal) may cross: each is simplified, and bounded, alone.
  * Boundary vertices come first, then samples (each an original vertex with its value), then Steiner points; with a
  * target ratio, boundary vertices, then all others; where no edge collapses, all are in the original's order. */
 TETLOD_API tetlod_status tetlod_run(tetlod_context *context);

@@ -87,6 +87,32 @@ std::pair<std::int32_t, std::int32_t> crossing_of(const std::vector<Point> &poin
   return tetlod::find_crossing(surface, tree, job);
 }
 
+/// The faces of each component of the surface, cut apart where it touches itself.
+std::vector<std::vector<Face>> components_of(const std::vector<Point> &points, const std::vector<Face> &faces) {
+  tetlod::Memory memory;
+  const tetlod::Parallel alone(1);
+  tetlod::Job job(memory, alone);
+  tetlod::Surface surface(memory);
+  make_surface(points, faces, surface);
+  tetlod::SurfaceTopology topology(memory);
+  tetlod::find_topology(surface.points, surface.triangles, job, topology);
+  std::vector<std::vector<Face>> components(std::size_t(topology.components));
+  for (std::size_t t = 0; t < faces.size(); t++) components[std::size_t(topology.component[t])].push_back(faces[t]);
+  return components;
+}
+
+bool has_contacts(const std::vector<Point> &points, const std::vector<Face> &faces) {
+  tetlod::Memory memory;
+  const tetlod::Parallel alone(1);
+  tetlod::Job job(memory, alone);
+  tetlod::Surface surface(memory);
+  make_surface(points, faces, surface);
+  tetlod::SurfaceTopology topology(memory);
+  tetlod::find_topology(surface.points, surface.triangles, job, topology);
+  tetlod::TreeOnDemand tree(surface);
+  return !tetlod::find_contacts(surface, topology, tree, job).empty();
+}
+
 Point minus(const Point &a, const Point &b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 double dot(const Point &a, const Point &b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 Point cross(const Point &a, const Point &b) {
@@ -191,6 +217,14 @@ void check_surface(const std::vector<Point> &points, const std::vector<Face> &bo
   DEMAND(a < 0, "the boundary does not cross itself: triangles %d and %d do", a, b);
 }
 
+void check_components(const std::vector<Point> &points, const std::vector<Face> &boundary) {
+  DEMAND(topology_of(boundary).closed, "the boundary is closed");
+  for (const std::vector<Face> &component : components_of(points, boundary)) {
+    const auto [a, b] = crossing_of(points, component);
+    DEMAND(a < 0, "no component of the boundary crosses itself: its triangles %d and %d do", a, b);
+  }
+}
+
 void check_same_topology(const std::vector<Face> &original, const std::vector<Face> &boundary) {
   const Topology was = topology_of(original), is = topology_of(boundary);
   DEMAND(was.components == is.components, "the surface's components stay: %ld, now %ld", long(was.components),
@@ -226,13 +260,16 @@ void check_values(const std::vector<double> &values, double low, double high) {
     DEMAND(values[i] >= low && values[i] <= high, "value %zu, %.17g, is in [%.17g, %.17g]", i, values[i], low, high);
 }
 
-void check_result(const Mesh &mesh, const Facts &facts, const Fetched &result) {
+void check_result(const Mesh &mesh, const Facts &facts, const Fetched &result, bool takes_contacts) {
   DEMAND(!result.tets.empty() && !result.points.empty(), "a result is not empty");
   DEMAND(result.values.size() == result.points.size(), "there is a value a point");
   check_corners(result.tets, result.points.size());
   check_positive(result.points, result.tets);
   check_conforming(result.tets, result.boundary);
-  check_surface(result.points, result.boundary);
+  if (takes_contacts && has_contacts(mesh.points, facts.boundary))
+    check_components(result.points, result.boundary);
+  else
+    check_surface(result.points, result.boundary);
   check_values(result.values, facts.low, facts.high);
   check_same_topology(facts.boundary, result.boundary);
   if (crossing_of(mesh.points, facts.boundary).first < 0)

@@ -25,6 +25,8 @@ void check_positive(const std::vector<Point> &points, const std::vector<Corners>
 void check_conforming(const std::vector<Corners> &tets, const std::vector<Face> &boundary);
 /// No hole in the surface, and it meets itself nowhere but at common vertices and edges.
 void check_surface(const std::vector<Point> &points, const std::vector<Face> &boundary);
+/// ... but where solids are in contact: then none of its components does.
+void check_components(const std::vector<Point> &points, const std::vector<Face> &boundary);
 /// Components and Euler characteristic of the surface as it is.
 void check_same_topology(const std::vector<Face> &original, const std::vector<Face> &boundary);
 /// ... and cut apart where it touches itself. Neither may cross itself: which sheets belong together at an edge is then
@@ -36,7 +38,7 @@ void check_deviation(const std::vector<Point> &before, const std::vector<Face> &
                      const std::vector<Point> &after, const std::vector<Face> &boundary, double bound);
 void check_values(const std::vector<double> &values, double low, double high);
 
-/// All of it, for the result of a run with this mesh.
-void check_result(const Mesh &mesh, const Facts &facts, const Fetched &result);
+/// All of it, for the result of a run with this mesh, which takes solids in contact or does not.
+void check_result(const Mesh &mesh, const Facts &facts, const Fetched &result, bool takes_contacts);
 
 }  // namespace fuzz

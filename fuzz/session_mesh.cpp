@@ -135,8 +135,9 @@ bool same(const Fetched &a, const Fetched &b) {
 
 void Session::accept(const Mesh &mesh, const Facts &facts) {
   last_ = fetch(context_);
+  const bool takes_contacts = option(TETLOD_OPT_TARGET_RATIO) > 0 || option(TETLOD_OPT_MAX_ERROR) > 0;
   if (option(TETLOD_OPT_MERGE_TOLERANCE) == 0 && !facts.wide) {
-    check_result(mesh, facts, *last_);
+    check_result(mesh, facts, *last_, takes_contacts);
     check_report(mesh, facts);
     check_flags(mesh, facts);
     if (const double bound = option(TETLOD_OPT_MAX_DEVIATION); bound > 0)
@@ -144,7 +145,7 @@ void Session::accept(const Mesh &mesh, const Facts &facts) {
   } else {  // which points merge, or which tets are flat, is not found out again
     check_positive(last_->points, last_->tets);
     check_conforming(last_->tets, last_->boundary);
-    check_surface(last_->points, last_->boundary);
+    takes_contacts ? check_components(last_->points, last_->boundary) : check_surface(last_->points, last_->boundary);
     check_values(last_->values, facts.low, facts.high);
   }
   tetlod_run_report report{};

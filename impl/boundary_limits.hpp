@@ -15,8 +15,8 @@ class BoundaryLimits {
   }
   /// No collapse takes the surface through itself, see CrossingGuard.
   void guard_crossings(const Array<Vec3> &points, const Array<Triangle> &triangles, Span<const std::int32_t> id,
-                       Job &job) {
-    guard_.emplace(points, triangles, id, job);
+                       Job &job, const MayMeet &may_meet = {}, Span<const std::int32_t> origin = {}) {
+    guard_.emplace(points, triangles, id, job, may_meet, origin);
   }
 
   bool guards_crossings() const { return guard_.has_value(); }

@@ -20,7 +20,7 @@ constexpr double flattest_part = 0.2;
 /// Of the original's volume, that the mesh may lack or have too much.
 constexpr double most_volume = 0.005;
 
-/// origin: the original vertex that each point of the mesh still is, or -1. stays: of original vertices; empty: none.
+/// origin: what each point of the mesh was, see came_from.hpp. stays: of original vertices; empty: none.
 inline bool stays_there(std::size_t v, Span<const std::int32_t> origin, Span<const std::uint8_t> stays) {
   return origin[v] >= 0 && !stays.empty() && stays[std::size_t(origin[v])];
 }

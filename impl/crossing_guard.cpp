@@ -89,8 +89,10 @@ struct CrossingGuard::Other {
 };
 
 CrossingGuard::CrossingGuard(const Array<Vec3> &points, const Array<Triangle> &triangles, Span<const std::int32_t> id,
-                             Job &job)
-    : points_(points), triangles_(triangles), id_(id), job_(job), tree_(job.memory) {
+                             Job &job, const MayMeet &may_meet, Span<const std::int32_t> origin)
+    : points_(points), triangles_(triangles), id_(id), job_(job), component_(&job.memory), tree_(job.memory) {
+  if (may_meet.contacts) component_ = components_of_triangles(triangles, origin, may_meet.component, job.memory);
+  may_meet_ = {may_meet.contacts, component_};
   const auto is_there = [](const Triangle &t) { return t[0] >= 0; };
   left_ = in_tree_ = std::size_t(std::count_if(triangles.begin(), triangles.end(), is_there));
   const auto box = [&](std::size_t t) { return is_there(triangles[t]) ? box_of(points, triangles[t]) : Box(); };
@@ -103,6 +105,7 @@ bool CrossingGuard::is_passed(const Star &star) const {
   for (std::int32_t face : star.old_faces) box.add(Other(*this, face).box);
   return tree_.any_overlap(box, [&](std::int32_t face) {
     if (std::find(star.old_faces.begin(), star.old_faces.end(), face) != star.old_faces.end()) return false;
+    if (may_meet_(star.old_faces[0], face)) return false;
     const Other other(*this, face);
     return other.meets(star) || passes_over(star, box, other);
   });

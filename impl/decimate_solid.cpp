@@ -7,6 +7,7 @@
 #include "begin_collapses.hpp"
 #include "beside.hpp"
 #include "boundary_limits.hpp"
+#include "came_from.hpp"
 #include "solid_blocks.hpp"
 #include "solid_work.hpp"
 #include "state_keeper.hpp"
@@ -71,7 +72,7 @@ class SolidDecimator {
       }
       if (count_ < options_.enough && limit > options_.dearest) break;
       if (count_ <= options_.careful_from && !limits_.guards_crossings())
-        limits_.guard_crossings(mesh_.points, mesh_.triangles, {}, job_);
+        limits_.guard_crossings(mesh_.points, mesh_.triangles, {}, job_, options_.may_meet, mesh_.origin);
       job_.poll(1 - double(count_ - options_.tets) / surplus);
       collapse_some(limit);
       keep_where(left_, job_, [&](std::size_t i) { return mesh_.has_vertex(left_[i]); });
@@ -99,7 +100,7 @@ class SolidDecimator {
       out.points.push_back(mesh_.point(v));
       const Values<m> values = moved ? values_of(v) : original_.values<m>()[i];
       out.scalars.insert(out.scalars.end(), values.begin(), values.end());
-      origin.push_back(moved ? -1 : std::int32_t(i));
+      origin.push_back(moved ? moved_away(std::int32_t(i)) : std::int32_t(i));
     }
     keep_left(mesh_.tets, number, job_);
     keep_left(mesh_.triangles, number, job_);

@@ -3,6 +3,7 @@
 // size a vertex inside just moves into a neighbour, which is soon found and loses no more in the end; near it the
 // vertex that is left comes to the best place.
 #pragma once
+#include "contacts.hpp"
 #include "deviation.hpp"
 #include "extract_boundary.hpp"
 #include "job.hpp"
@@ -21,6 +22,9 @@ struct OriginalSolid {
   const Surface &surface;           ///< the boundary with points of its own
   const SurfaceTopology &topology;  ///< of that
   TreeOnDemand &tree;               ///< of that
+  ContactsOnDemand &contacts;       ///< of that
+
+  const Contacts &find_contacts(Job &job) const { return contacts.get(surface, topology, tree, job); }
 };
 
 struct SolidOptions {
@@ -38,6 +42,7 @@ struct SolidOptions {
   Span<const std::uint8_t> kept;      ///< original vertices that keep place and value; empty: none
   Span<const std::uint8_t> restored;  ///< others that do so this time; empty: none
   Span<const std::uint8_t> touching;  ///< original vertices where the solid touches itself; empty: none
+  MayMeet may_meet;                   ///< original vertices of solids in contact, which care lets meet
   std::size_t later = 0;              ///< bytes in use when the run is further on, without the states that it keeps
   std::int64_t careful_from = 0;  ///< with so many tets or fewer no collapse takes the boundary through itself; from
                                   ///< all tets on no state begins it, and none is kept
@@ -46,7 +51,7 @@ struct SolidOptions {
 
 /// mesh: what is left, as many tets as there shall be, a thousandth more at most, or more where no further collapse is
 /// admissible, or cheap enough; points, values, tets and boundary, of the original's topology and, to 1 %, its volume.
-/// origin: the original vertex that each point still is, or -1. Tets that were flat may be left, and the boundary may
+/// origin: what each point was, see came_from.hpp. Tets that were flat may be left, and the boundary may
 /// cross itself: to be looked at. history: of this mesh, begun with these values and this way, and with these flags; it
 /// shortens the way to the same bytes, and gets more states, but with max_deviation; of earlier values, with a warm
 /// start, it shortens the way to others; restored vertices it forgets all for. original.tree is dropped, and may be

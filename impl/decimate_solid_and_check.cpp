@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "attempts.hpp"
+#include "came_from.hpp"
 #include "deviation.hpp"
 #include "lower_deviation.hpp"
 #include "move_outward.hpp"
@@ -33,6 +34,22 @@ bool same_topology(const SurfaceTopology &a, const SurfaceTopology &b) {
          a.nonmanifold_points == b.nonmanifold_points;
 }
 
+/// But where solids of the original are in contact: each is simplified for itself.
+void refuse_new_intersections(const OriginalSolid &original, Job &job, CoarseSolid &coarse, TreeOnDemand &tree) {
+  try {
+    refuse_intersections(coarse.surface, coarse.topology, tree, 0, job);
+  } catch (const Error &error) {
+    if (error.status() != Status::mesh_intersecting || original.find_contacts(job).empty()) throw;
+    Array<std::int32_t> vertex(&job.memory);
+    for (const std::int32_t point : coarse.surface.origin)
+      vertex.push_back(came_from(coarse.origin[std::size_t(point)]));
+    const Array<std::int32_t> components = original_components(coarse.surface.triangles, coarse.topology, vertex,
+                                                               original.surface, original.topology, job.memory);
+    refuse_intersections(coarse.surface, coarse.topology, tree, 0, job, {&original.find_contacts(job), components});
+    coarse.in_contact = true;
+  }
+}
+
 /// What is wrong, where it is not closed, of the same topology, crosses itself nowhere, and none of its components lies
 /// in another's material.
 std::string check_surface_of(const OriginalSolid &original, Job &job, CoarseSolid &coarse, TreeOnDemand &tree) {
@@ -43,7 +60,7 @@ std::string check_surface_of(const OriginalSolid &original, Job &job, CoarseSoli
     coarse.wants_care = !same_topology(coarse.topology, original.topology);
     if (coarse.wants_care) return "the boundary has another topology";
     tree = TreeOnDemand(coarse.surface);
-    refuse_intersections(coarse.surface, coarse.topology, tree, 0, job);
+    refuse_new_intersections(original, job, coarse, tree);
     return {};
   } catch (const Error &error) {
     // Its vertices have no names that the host knows.
@@ -142,6 +159,11 @@ CoarseSolid decimate_with_care(const OriginalSolid &original, SolidOptions optio
   const auto all = std::int64_t(original.mesh.tets.size()), few = late * std::int64_t(best.mesh.tets.size());
   const bool can_reach_size = !misses_size(options, best.mesh);
   bool again = best.wants_care && options.careful_from < all;
+  Array<std::int32_t> component(&job.memory);
+  if (again && !original.find_contacts(job).empty()) {
+    component = components_of_vertices(original.surface, original.topology, original.mesh.points.size(), job.memory);
+    options.may_meet = {&original.find_contacts(job), component};
+  }
   for (options.careful_from = options.careful_from > 0 ? all : std::min(few, all); again; options.careful_from = all) {
     if (job.log) job.log(1, ("edges collapse again, with more care: " + best.wrong).c_str());
     if (!best.is_sound) best = CoarseSolid(job.memory);

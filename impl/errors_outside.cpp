@@ -6,6 +6,7 @@
 #include "boundary_tree.hpp"
 #include "geometry.hpp"
 #include "kd_tree.hpp"
+#include "solids.hpp"
 #include "whole_arrays.hpp"
 
 namespace tetlod {
@@ -63,7 +64,11 @@ template <std::size_t m>
 class OutsideVertices {
  public:
   OutsideVertices(const MeshView &original, Array<std::int32_t> &&vertices, Job &job, const AdaptiveMesh<m> &mesh)
-      : original_(original), job_(job), mesh_(mesh), vertices_(std::move(vertices)) {}
+      : original_(original),
+        job_(job),
+        mesh_(mesh),
+        vertices_(std::move(vertices)),
+        solids_(mesh, original.solid, job) {}
 
   std::int32_t vertex(std::size_t k) const { return vertices_[k]; }
 
@@ -71,7 +76,7 @@ class OutsideVertices {
   Array<double> errors_on(const BoundaryTree &boundary) const {
     Array<double> error(vertices_.size(), 0.0, &job_.memory);
     for_each(vertices_.size(), job_, [&](std::size_t k) {
-      const NearestPoint at = boundary.tree.nearest(place(k));
+      const NearestPoint at = nearest_on(boundary, k);
       const Triangle &face = boundary.faces[std::size_t(at.triangle)];
       const double w[4] = {at.weights[0], at.weights[1], at.weights[2], 0};
       error[k] = error_in(k, {face[0], face[1], face[2], face[0]}, w);
@@ -95,6 +100,7 @@ class OutsideVertices {
       const Tet &tet = mesh_.tets[t];
       tree.any_overlap(with_rounding(box_of<4>(mesh_.points, tet)), [&](std::int32_t k) {
         double w[4];
+        if (!solids_.may_hold(std::int32_t(t), vertex(std::size_t(k)))) return false;
         if (holds(tet, place(std::size_t(k)), w)) parts[t / stretch].push_back({k, error_in(std::size_t(k), tet, w)});
         return false;
       });
@@ -106,6 +112,13 @@ class OutsideVertices {
   }
 
  private:
+  NearestPoint nearest_on(const BoundaryTree &boundary, std::size_t k) const {
+    if (!solids_.are_several()) return boundary.tree.nearest(place(k));
+    return boundary.tree.nearest_among(place(k), [&](std::int32_t face) {
+      return solids_.may_hold(boundary.tet_of_face[std::size_t(face)], vertex(k));
+    });
+  }
+
   const Vec3 &place(std::size_t k) const { return original_.points[std::size_t(vertices_[k])]; }
 
   double error_in(std::size_t k, const Tet &t, const double w[4]) const {
@@ -123,6 +136,7 @@ class OutsideVertices {
   Job &job_;
   const AdaptiveMesh<m> &mesh_;
   Array<std::int32_t> vertices_;
+  SolidsOfTets solids_;
 };
 
 }  // namespace

@@ -40,14 +40,16 @@ bool hang_together(const Surface &surface, std::int32_t a, std::int32_t b, const
 
 }  // namespace
 
-std::pair<std::int32_t, std::int32_t> find_crossing(const Surface &surface, TreeOnDemand &tree_of_it, Job &job) {
+std::pair<std::int32_t, std::int32_t> find_crossing(const Surface &surface, TreeOnDemand &tree_of_it, Job &job,
+                                                    const MayMeet &may_meet) {
   const TriangleTree &tree = tree_of_it.get(job);
   const std::size_t triangles = surface.triangles.size();
   const auto none = std::int32_t(triangles);
   const auto first_partner = [&](std::size_t t) {
     std::int32_t first = none;
     tree.for_near(std::int32_t(t), [&](std::int32_t other) {
-      if (other > std::int32_t(t) && other < first && cross(surface, std::int32_t(t), other)) first = other;
+      const auto self = std::int32_t(t);
+      if (other > self && other < first && cross(surface, self, other) && !may_meet(self, other)) first = other;
     });
     return first;
   };
@@ -62,8 +64,9 @@ std::pair<std::int32_t, std::int32_t> find_crossing(const Surface &surface, Tree
   return {std::int32_t(culprit.index()), first_partner(culprit.index())};
 }
 
-void refuse_crossing(const Surface &surface, TreeOnDemand &tree, std::int32_t index_base, Job &job) {
-  const auto [a, b] = find_crossing(surface, tree, job);
+void refuse_crossing(const Surface &surface, TreeOnDemand &tree, std::int32_t index_base, Job &job,
+                     const MayMeet &may_meet) {
+  const auto [a, b] = find_crossing(surface, tree, job, may_meet);
   if (a < 0) return;
   const HostNumbers numbers = host_numbers(surface, index_base);
   const std::array<long long, 3> first = names(surface, a, numbers), second = names(surface, b, numbers);

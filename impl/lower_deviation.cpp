@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "boundary_distances.hpp"
+#include "came_from.hpp"
 #include "contact_guard.hpp"
 #include "nearest_in_star.hpp"
 #include "remesh_checks.hpp"
@@ -158,7 +159,7 @@ class DeviationLowering {
     }
     std::copy(aim.values.begin(), aim.values.end(),
               mesh_.scalars.begin() + std::ptrdiff_t(std::size_t(v) * original_.fields));
-    origin_[std::size_t(v)] = aim.origin;
+    origin_[std::size_t(v)] = aim.origin < 0 ? moved_away(origin_[std::size_t(v)]) : aim.origin;
     make(v, aim);
     return true;
   }
@@ -180,7 +181,7 @@ class DeviationLowering {
       return false;
     }
     mesh_.scalars.insert(mesh_.scalars.end(), aim.values.begin(), aim.values.end());
-    origin_.push_back(aim.origin);
+    origin_.push_back(aim.origin < 0 ? moved_away(origin_[std::size_t(ends[0])]) : aim.origin);
     touched_.push_back(1);
     make(v, aim);
     return true;

@@ -7,7 +7,7 @@ namespace tetlod {
 
 /// Vertices of the mesh's boundary move, and its edges and triangles are divided, to lower the distances between the
 /// boundaries, the largest first, down to `least`, as long as there are no more than `most` tets. Tets stay positive.
-/// origin: the original vertex that each point of the mesh still is, or -1. Vertices that stay get no other triangles
+/// origin: what each point of the mesh was, see came_from.hpp. Vertices that stay get no other triangles
 /// among themselves, either. Returns the largest distance from a vertex of either boundary to the other.
 double lower_deviation(const BoundaryMoves &by, double least, std::int64_t most, Job &job, TetMesh &mesh,
                        Array<std::int32_t> &origin);

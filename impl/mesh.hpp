@@ -48,7 +48,8 @@ struct MeshView {
   Span<const Tet> tets;
   std::size_t fields = 1;
   FieldScales scales{};
-  Span<const std::uint8_t> used{};  ///< of each point, whether a tet has it; empty: nobody has looked
+  Span<const std::uint8_t> used{};   ///< of each point, whether a tet has it; empty: nobody has looked
+  Span<const std::int32_t> solid{};  ///< of each point, where solids are in contact, else empty; -1: of several
 
   template <std::size_t m>
   Span<const Values<m>> values() const {

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "boundary_distances.hpp"
+#include "came_from.hpp"
 #include "cholesky.hpp"
 #include "contact_guard.hpp"
 #include "remesh_checks.hpp"
@@ -110,7 +111,7 @@ class OutwardMoves {
       if (v % many == 0) job_.poll(1);
       const Vec3 step = evidence_[v].step();
       if (!(glm::length(step) > of_rounding_) || stays_there(v, origin, by_.stays)) continue;
-      if (move(std::int32_t(v), step, tets.of(std::int32_t(v)))) origin[v] = -1;
+      if (move(std::int32_t(v), step, tets.of(std::int32_t(v)))) origin[v] = moved_away(origin[v]);
     }
   }
 

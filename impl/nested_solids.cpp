@@ -19,11 +19,11 @@ class Nesting {
     find_widest(topology);
   }
 
-  /// A triangle of a component that lies in another's material; -1: there is none.
-  std::int32_t find() const {
+  /// A triangle of a component that lies in another's material, and may not meet any; -1: there is none.
+  std::int32_t find(const MayMeet &may_meet) const {
     Array<std::uint8_t> doubtful(widest_.size(), 0, &job_.memory);
     job_.parallel.for_blocks(widest_.size(), 64, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t c = begin; c < end; c++) doubtful[c] = !is_sound_by_ray(widest_[c]);
+      for (std::size_t c = begin; c < end; c++) doubtful[c] = !may_meet.any(widest_[c]) && !is_sound_by_ray(widest_[c]);
       job_.poll(1);
     });
     for (std::size_t c = 0; c < widest_.size(); c++)
@@ -71,9 +71,9 @@ class Nesting {
 }  // namespace
 
 void refuse_nested_solids(const Surface &surface, const SurfaceTopology &topology, TreeOnDemand &tree,
-                          std::int32_t index_base, Job &job) {
+                          std::int32_t index_base, Job &job, const MayMeet &may_meet) {
   if (topology.components < 2) return;
-  const std::int32_t t = Nesting(surface, topology, tree.get(job), job).find();
+  const std::int32_t t = Nesting(surface, topology, tree.get(job), job).find(may_meet);
   if (t < 0) return;
   const HostNumbers numbers = host_numbers(surface, index_base);
   const Triangle &face = surface.triangles[std::size_t(t)];
@@ -83,9 +83,19 @@ void refuse_nested_solids(const Surface &surface, const SurfaceTopology &topolog
 }
 
 void refuse_intersections(const Surface &surface, const SurfaceTopology &topology, TreeOnDemand &tree,
-                          std::int32_t index_base, Job &job) {
-  refuse_crossing(surface, tree, index_base, job);
-  refuse_nested_solids(surface, topology, tree, index_base, job);
+                          std::int32_t index_base, Job &job, const MayMeet &may_meet) {
+  refuse_crossing(surface, tree, index_base, job, may_meet);
+  refuse_nested_solids(surface, topology, tree, index_base, job, may_meet);
+}
+
+void refuse_overlaps(const Surface &surface, const SurfaceTopology &topology, ContactsOnDemand &contacts,
+                     TreeOnDemand &tree, std::int32_t index_base, Job &job) {
+  MayMeet may_meet;
+  if (find_crossing(surface, tree, job).first >= 0) {
+    may_meet = {&contacts.get(surface, topology, tree, job), topology.component};
+    refuse_crossing(surface, tree, index_base, job, may_meet);
+  }
+  refuse_nested_solids(surface, topology, tree, index_base, job, may_meet);
 }
 
 }  // namespace tetlod

@@ -1,5 +1,6 @@
 // Does a component of a surface lie in the material of another?
 #pragma once
+#include "contacts.hpp"
 #include "job.hpp"
 #include "mesh.hpp"
 #include "surface_topology.hpp"
@@ -8,13 +9,17 @@ namespace tetlod {
 
 class TreeOnDemand;
 
-/// Throws Status::mesh_intersecting where one does: a solid in a solid. The surface does not cross itself. The face in
-/// the message is numbered from `index_base`.
+/// Throws Status::mesh_intersecting where one does: a solid in a solid. The surface crosses itself nowhere, but that
+/// some components may meet, which are not looked at. The face in the message is numbered from `index_base`.
 void refuse_nested_solids(const Surface &surface, const SurfaceTopology &topology, TreeOnDemand &tree,
-                          std::int32_t index_base, Job &job);
+                          std::int32_t index_base, Job &job, const MayMeet &may_meet = {});
 
 /// Likewise, and where the surface crosses itself.
 void refuse_intersections(const Surface &surface, const SurfaceTopology &topology, TreeOnDemand &tree,
-                          std::int32_t index_base, Job &job);
+                          std::int32_t index_base, Job &job, const MayMeet &may_meet = {});
+
+/// Likewise, but that its solids may be in contact.
+void refuse_overlaps(const Surface &surface, const SurfaceTopology &topology, ContactsOnDemand &contacts,
+                     TreeOnDemand &tree, std::int32_t index_base, Job &job);
 
 }  // namespace tetlod

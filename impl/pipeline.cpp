@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "attempts.hpp"
+#include "came_from.hpp"
 #include "carry_fields.hpp"
 #include "decimate_solid_and_check.hpp"
 #include "describe.hpp"
@@ -28,6 +29,8 @@ class Pipeline : private Remeshing {
     if (as_published(options_) && !options_.remesh)
       fail(Status::backend_missing, "remesh is 0, and neither target-ratio nor max-error is set");
     begin();
+    if (options_.on_overlap == policy_error)
+      refuse_intersections(prepared_.surface(job_), prepared_.topology(job_), tree(), input_.index_base, job_);
     if (as_published(options_)) {
       decimate(budget_.sigma);
       simplify(worker);
@@ -89,7 +92,8 @@ class Pipeline : private Remeshing {
     }
     if (!coarse.is_sound && mesh_.tets.empty()) {
       if (!options_.remesh)  // who remeshes has looked at that
-        refuse_intersections(prepared_.surface(job_), prepared_.topology(job_), tree(), input_.index_base, job_);
+        refuse_overlaps(prepared_.surface(job_), prepared_.topology(job_), prepared_.contacts(), tree(),
+                        input_.index_base, job_);
       throw Error(Status::remesh, failure_);
     }
     const bool collapsed = coarse.is_sound && (mesh_.tets.empty() || is_better_than_remeshed(coarse));
@@ -219,13 +223,15 @@ class Pipeline : private Remeshing {
 
   CoarseSolid collapse(const SolidOptions &options, SolidHistory &history) {
     const StageTimer timer(Stage::decimate, job_, report_);
-    const OriginalSolid original{original_.view, boundary_, prepared_.surface(job_), prepared_.topology(job_), tree()};
+    const OriginalSolid original{original_.view,           boundary_, prepared_.surface(job_),
+                                 prepared_.topology(job_), tree(),    prepared_.contacts()};
     const std::int64_t lowered = collapse_sizes(budget_, options_, report_).lowered;
     return decimate_solid_and_check(original, options, lowered, history, job_);
   }
 
   void take_over(CoarseSolid &&coarse) {
     describe_collapses(coarse, original_, report_);
+    in_contact_ = coarse.in_contact;
     mesh_ = std::move(coarse.mesh);
     if (budget_.enough > 0) budget_.tets = std::int64_t(mesh_.tets.size());
     origin_ = std::move(coarse.origin);
@@ -267,13 +273,25 @@ class Pipeline : private Remeshing {
     options.boundary = &tree();
     options.max_deviation = deviation_limit();
     RefineReport refined(job_.memory);
+    MeshView original = original_.view;
+    if (collapsed && in_contact_) original.solid = prepared_.solids(job_);
+    const Array<std::int32_t> solid = solids_of_points(original.solid);
+    options.solid = solid;
     // A bound is looked for all the same: the sides of a slit may be nearer than weights are rounded by.
-    if (bound > 0 || !is_original) refined = tetlod::refine(original_.view, options, job_, mesh_);
+    if (bound > 0 || !is_original) refined = tetlod::refine(original, options, job_, mesh_);
     describe_refinement(refined, original_, report_);
     if (options_.max_deviation > 0 && refined.inserted_on_boundary > 0) measure_deviation_of_result();
     score_ = meets_size(budget_, mesh_) ? score_of(refined, original_.range, report_)
                                         : std::numeric_limits<double>::infinity();
     beyond_ = std::move(refined.beyond_bound);
+  }
+
+  /// Where edges have collapsed; empty where none is known of the original's vertices.
+  Array<std::int32_t> solids_of_points(Span<const std::int32_t> of_vertices) const {
+    Array<std::int32_t> solid(&job_.memory);
+    if (!of_vertices.empty())
+      for (const std::int32_t v : origin_) solid.push_back(of_vertices[std::size_t(came_from(v))]);
+    return solid;
   }
 
   /// Where triangles were divided, other middles than before are samples of a limit.
@@ -292,6 +310,7 @@ class Pipeline : private Remeshing {
     split_fields(input_, job_, result_);
   }
 
+  bool in_contact_ = false;    // solids of the mesh, as collapses left it
   std::int64_t stuck_at_ = 0;  // tets, where no edge was left to collapse; 0: the size was reached so far
   double score_ = 0;           // of the last refinement
   Array<std::int32_t> beyond_{&job_.memory};  // the bound: original vertices, after the last refinement

@@ -6,6 +6,7 @@
 
 #include "boundary_tree.hpp"
 #include "random_place.hpp"
+#include "solids.hpp"
 #include "sort_by_place.hpp"
 #include "tet_locator.hpp"
 #include "whole_arrays.hpp"
@@ -127,28 +128,36 @@ void add_inner(const MeshView &original, double most, Job &job, Array<Probe<m>> 
   });
 }
 
-/// The nearest point of the boundary, of a point that was found in no tet (t is -1), or a little outside of tet t, and
-/// of all, as that point is no farther off. Where it is farther, rounding has left a gap between tets: none then.
-NearestPoint nearest_if_outside(const TetComplex &mesh, std::int32_t t, const Vec3 &p, const TriangleTree &boundary) {
+/// The nearest point of the boundary, as nearest() finds it, of a point that was found in no tet (t is -1), or a little
+/// outside of tet t, and of all, as that point is no farther off. Where it is farther, rounding has left a gap between
+/// tets: none then.
+template <class Nearest>
+NearestPoint nearest_if_outside(const TetComplex &mesh, std::int32_t t, const Vec3 &p, const Nearest &nearest_to) {
   constexpr double slack = 2;
-  if (t < 0) return boundary.nearest(p);
+  if (t < 0) return nearest_to(p);
   double w[4];
   mesh.frame(t).weights(p, w);
   const double out = -*std::min_element(w, w + 4);  // of a flat tet, too
   if (out <= 0) return {};
   const double length2 = longest2(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2), mesh.corner(t, 3));
-  const NearestPoint nearest = boundary.nearest(p);
+  const NearestPoint nearest = nearest_to(p);
   return nearest.distance <= slack * out * std::sqrt(length2) ? nearest : NearestPoint();
 }
 
 /// Moves the vertices that are outside to the nearest point of the boundary, into the tet there.
 template <std::size_t m>
-void project(Job &job, Array<std::int32_t> &home, AdaptiveMesh<m> &mesh) {
+void project(const SolidsOfTets &solids, Job &job, Array<std::int32_t> &home, AdaptiveMesh<m> &mesh) {
   const BoundaryTree boundary(mesh, job);
   mesh.outside.assign(mesh.vertex_probes, 0);
   job.parallel.for_blocks(mesh.vertex_probes, block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; i++) {
-      const NearestPoint at = nearest_if_outside(mesh, home[i], mesh.probes[i].point, boundary.tree);
+      const auto nearest_to = [&](const Vec3 &p) {
+        if (!solids.are_several()) return boundary.tree.nearest(p);
+        return boundary.tree.nearest_among(p, [&](std::int32_t face) {
+          return solids.may_hold(boundary.tet_of_face[std::size_t(face)], mesh.vertex_of_probe[i]);
+        });
+      };
+      const NearestPoint at = nearest_if_outside(mesh, home[i], mesh.probes[i].point, nearest_to);
       if (at.triangle < 0) continue;
       home[i] = boundary.tet_of_face[std::size_t(at.triangle)];
       mesh.outside[i] = 1;
@@ -158,8 +167,22 @@ void project(Job &job, Array<std::int32_t> &home, AdaptiveMesh<m> &mesh) {
   });
 }
 
+/// Those of vertices become of their own solids.
 template <std::size_t m>
-Array<std::int32_t> find_homes(Job &job, AdaptiveMesh<m> &mesh) {
+void keep_to_solids(const TetLocator &locator, const SolidsOfTets &solids, Job &job, Array<std::int32_t> &home,
+                    AdaptiveMesh<m> &mesh) {
+  for (std::size_t i = 0; i < mesh.vertex_probes; i++) {
+    job.poll_at(i, 0.2);
+    const std::int32_t vertex = mesh.vertex_of_probe[i];
+    const auto may_hold = [&](std::int32_t t) { return solids.may_hold(t, vertex); };
+    if (home[i] < 0 || may_hold(home[i])) continue;
+    home[i] = locator.find_among(mesh.probes[i].point, may_hold);
+    if (home[i] < 0) mesh.in_no_tet.push_back(vertex);
+  }
+}
+
+template <std::size_t m>
+Array<std::int32_t> find_homes(const SolidsOfTets &solids, Job &job, AdaptiveMesh<m> &mesh) {
   Array<std::int32_t> order(&job.memory), home(mesh.probes.size(), -1, &job.memory);
   order.reserve(mesh.probes.size());
   const auto append = [&](std::size_t first, std::size_t end) {  // so that walks are short
@@ -183,6 +206,7 @@ Array<std::int32_t> find_homes(Job &job, AdaptiveMesh<m> &mesh) {
   mesh.in_no_tet.clear();
   for (const Array<std::int32_t> &some : outside_of_block)
     mesh.in_no_tet.insert(mesh.in_no_tet.end(), some.begin(), some.end());
+  if (solids.are_several()) keep_to_solids(locator, solids, job, home, mesh);
   return home;
 }
 
@@ -237,8 +261,9 @@ void place_probes(const MeshView &original, const ProbeOptions &options, Job &jo
   mesh.vertex_probes = mesh.probes.size();
   mesh.vertex_weight = options.vertex_weight;
   if (options.most_inner > 0) add_inner(original, options.most_inner, job, mesh.probes);
-  Array<std::int32_t> home = find_homes(job, mesh);
-  if (options.project_outside) project(job, home, mesh);
+  const SolidsOfTets solids(mesh, original.solid, job);
+  Array<std::int32_t> home = find_homes(solids, job, mesh);
+  if (options.project_outside) project(solids, job, home, mesh);
   const auto count_homeless = [&](std::size_t end) {
     return std::size_t(std::count(home.begin(), home.begin() + std::ptrdiff_t(end), -1));
   };

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "decimate_and_check.hpp"
+#include "solids.hpp"
 #include "whole_arrays.hpp"
 
 namespace tetlod {
@@ -98,6 +99,11 @@ const Surface &Prepared::surface(Job &job) {
 const SurfaceTopology &Prepared::topology(Job &job) {
   prepare_surface(job);
   return topology_;
+}
+
+Span<const std::int32_t> Prepared::solids(Job &job) {
+  if (solids_.empty()) solids_ = solids_of_vertices(original.view, job);
+  return solids_;
 }
 
 Array<std::uint8_t> Prepared::flags_of_surface(Job &job) const {

@@ -9,6 +9,7 @@
 #pragma once
 #include <cstdint>
 
+#include "contacts.hpp"
 #include "decimate_boundary.hpp"
 #include "deviation.hpp"
 #include "extract_boundary.hpp"
@@ -30,6 +31,7 @@ class Prepared {
         boundary(memory),
         surface_(memory),
         topology_(memory),
+        solids_(&memory),
         careless_(memory),
         careful_(memory),
         history_(memory),
@@ -50,6 +52,10 @@ class Prepared {
   /// The boundary with its values, and how it hangs together.
   const Surface &surface(Job &job);
   const SurfaceTopology &topology(Job &job);
+  /// Of the surface.
+  ContactsOnDemand &contacts() { return contacts_; }
+  /// Of each original vertex, as MeshView::solid.
+  Span<const std::int32_t> solids(Job &job);
 
   struct Decimated {
     std::int64_t cleaned_edges = 0;
@@ -99,6 +105,8 @@ class Prepared {
   Fingerprint stamp_;
   Surface surface_;
   SurfaceTopology topology_;
+  ContactsOnDemand contacts_;
+  Array<std::int32_t> solids_;
   Logged careless_, careful_;
   SolidHistory history_;
   Way last_;

@@ -41,6 +41,7 @@ class Refinement {
     sort_by_place(mesh_.points, mesh_.tets, job);
     first_inserted_ = mesh_.points.size();
     mesh_.kept.assign(options.kept.begin(), options.kept.end());
+    mesh_.solid.assign(options.solid.begin(), options.solid.end());
     mesh_.kept.resize(mesh_.points.size(), 0);
     mesh_.connect(job);
     if (options.max_deviation > 0)

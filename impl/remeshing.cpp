@@ -127,6 +127,16 @@ void Remeshing::meet_target(Worker &worker) {
   }
 }
 
+/// TetGen cannot take those, but edges can collapse. Throws what else is wrong with the original.
+bool Remeshing::has_contacts() {
+  if (options_.clean_edges > 0) return false;
+  const Surface &surface = prepared_.surface(job_);
+  const SurfaceTopology &topology = prepared_.topology(job_);
+  if (prepared_.contacts().get(surface, topology, tree(), job_).empty()) return false;
+  refuse_overlaps(surface, topology, prepared_.contacts(), tree(), input_.index_base, job_);
+  return true;
+}
+
 bool Remeshing::remesh_to_target(Worker &worker) {
   try {
     decimate_and_sample();
@@ -136,7 +146,7 @@ bool Remeshing::remesh_to_target(Worker &worker) {
     const bool blames_boundary =
         error.status() == Status::mesh_degenerate || error.status() == Status::mesh_intersecting;
     const bool has_collapsed = ladder_ == Ladder::first_rung;  // to a sound mesh
-    if (error.status() != Status::remesh && !(blames_boundary && has_collapsed)) throw;
+    if (error.status() != Status::remesh && !(blames_boundary && (has_collapsed || has_contacts()))) throw;
     return false;
   }
   reconstruct_field();

@@ -37,13 +37,14 @@ class Remeshing : public Beginning {
   std::optional<TreeOnDemand> tree_;
   SurfaceTopology topology_{job_.memory};  // of the simplified boundary
   KeptVertices kept_{original_.flags, job_.memory};
-  Array<std::int32_t> origin_{&job_.memory};  // of each point of mesh_, the original vertex that it is, or -1
+  Array<std::int32_t> origin_{&job_.memory};  // of each point of mesh_, the original vertex that it is; else below 0
 
  private:
   void decimate_and_sample();
   void meet_target(Worker &worker);
   bool fill(Worker &worker);
   void refuse_overlapping_solids();
+  bool has_contacts();
   void cull();
   void remesh(Worker &worker);
   void measure_deviation();

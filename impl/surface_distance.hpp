@@ -1,5 +1,6 @@
 // 3.3  A k-d tree over the triangles of a closed surface: how far is a point from it, and on which side.
 #pragma once
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -23,6 +24,16 @@ class TriangleTree {
   TriangleTree(Span<const Vec3> points, Span<const Triangle> triangles, Job &job, std::int64_t leaf = 8);
   /// usual2: few points are farther than its root. The less it is, the sooner the others' are found.
   NearestPoint nearest(const Vec3 &p, double usual2 = std::numeric_limits<double>::infinity()) const;
+  /// Of the triangles that counts() is true of.
+  template <class Counts>
+  NearestPoint nearest_among(const Vec3 &p, const Counts &counts) const {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    double distance2 = infinity;
+    const auto distance2_to = [&](std::int32_t t) { return counts(t) ? triangle(t).distance2_to(p) : infinity; };
+    const std::int32_t t = tree_.nearest(p, distance2, distance2_to);
+    if (t < 0) return {-1, Vec3(0), infinity};
+    return {t, triangle(t).weights_nearest_to(p), std::sqrt(distance2)};
+  }
   /// Whether it is no farther than the root of `most2`: sooner than what is nearest. near: a triangle that may be no
   /// farther, -1: none is known; becomes one that is not, where there is one.
   bool is_within(const Vec3 &p, double most2, std::int32_t &near) const;

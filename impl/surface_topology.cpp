@@ -36,6 +36,7 @@ class TopologyFinder {
   std::int32_t to(std::int32_t h) const { return triangles_[std::size_t(h / 3)][std::size_t(next(h % 3))]; }
   std::int32_t apex(std::int32_t h) const { return triangles_[std::size_t(h / 3)][std::size_t(next(next(h % 3)))]; }
   std::int32_t low_end(std::int32_t h) const { return std::min(from(h), to(h)); }
+  bool runs_up(std::int32_t h) const { return from(h) < to(h); }
 
   /// A counting sort by the lower end, then each small bucket by the higher one.
   void sort_half_edges() {
@@ -103,7 +104,7 @@ class TopologyFinder {
       out_.touching[std::size_t(end_of_edge)] |= at_nonmanifold_edge;
     sort_by_angle(begin, end);
     // Material lies before a triangle whose half-edge runs up, and behind one whose half-edge runs down.
-    const std::size_t first = from(sorted_[begin].id) > to(sorted_[begin].id) ? begin : begin + 1;
+    const std::size_t first = runs_up(sorted_[begin].id) ? begin + 1 : begin;
     for (std::size_t i = 0; i < end - begin; i += 2) {
       const std::size_t down = begin + (first - begin + i) % (end - begin);
       const std::size_t up = begin + (first - begin + i + 1) % (end - begin);
@@ -121,7 +122,8 @@ class TopologyFinder {
   }
 
   /// Counter-clockwise around the edge, seen from its higher end. Exact: what belongs together is found again after
-  /// decimation, also in a plate that is thinner than rounding.
+  /// decimation, also in a plate that is thinner than rounding. Where two lie on one another, the one wedge ends before
+  /// the other begins: these are solids in contact.
   void sort_by_angle(std::size_t begin, std::size_t end) {
     const std::int32_t some = sorted_[begin].id;
     const Vec3 &low = points_[std::size_t(low_end(some))], &high = points_[std::size_t(sorted_[begin].high)];
@@ -132,7 +134,9 @@ class TopologyFinder {
                 const int half = half_around(low, high, first, p), other = half_around(low, high, first, q);
                 if (half != other) return half < other;
                 const int order = half % 2 ? orientation(low, high, p, q) : 0;
-                return order != 0 ? order > 0 : a.id < b.id;
+                if (order != 0) return order > 0;
+                const bool ends = runs_up(a.id), other_ends = runs_up(b.id);
+                return ends != other_ends ? ends : a.id < b.id;
               });
   }
 

@@ -26,6 +26,7 @@ class TetComplex {
         tets(&memory),
         neighbours(&memory),
         tet_of(&memory),
+        solid(&memory),
         memory_(memory),
         touched_(&memory),
         free_(&memory),
@@ -38,6 +39,7 @@ class TetComplex {
   Array<Tet> neighbours;                        ///< across the face opposite each corner; -1 on the boundary
   std::function<bool(const Vec3 &)> may_bound;  ///< whether a boundary that is divided may be there; empty: anywhere
   Array<std::int32_t> tet_of;                   ///< one of the tets of each vertex
+  Array<std::int32_t> solid;                    ///< of the original's, of the first vertices; -1: not known
 
   /// Finds the neighbours of `tets`, which has no free slot yet.
   void connect(Job &job);

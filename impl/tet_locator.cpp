@@ -63,7 +63,7 @@ TetLocator::TetLocator(const TetComplex &mesh, Job &job)
 
 std::int32_t TetLocator::find(const Vec3 &p, std::int32_t hint) const {
   const std::int32_t t = walk(p, hint >= 0 ? hint : start_);
-  return t >= 0 ? t : search(p);
+  return t >= 0 ? t : find_among(p, [](std::int32_t) { return true; });
 }
 
 /// And how many of them hold a place.
@@ -80,14 +80,6 @@ Array<Box> TetLocator::boxes_of_items(Job &job) {
   return boxes;
 }
 
-/// Of an item, until visit says no.
-template <class Visit>
-void TetLocator::for_tets(std::size_t item, const Visit &visit) const {
-  const std::size_t end = std::min((item + 1) * together_, order_.size());
-  for (std::size_t i = item * together_; i < end; i++)
-    if (mesh_.alive(order_[i]) && !visit(order_[i])) return;
-}
-
 std::int32_t TetLocator::walk(const Vec3 &p, std::int32_t t) const {
   for (int step = 0; step < longest_walk; step++) {
     double w[4];
@@ -99,24 +91,6 @@ std::int32_t TetLocator::walk(const Vec3 &p, std::int32_t t) const {
     t = next;
   }
   return -1;
-}
-
-std::int32_t TetLocator::search(const Vec3 &p) const {
-  double best = -out_by_rounding;
-  std::int32_t found = -1;
-  tree_.any_overlap({p, p}, [&](std::int32_t item) {
-    for_tets(std::size_t(item), [&](std::int32_t t) {
-      double w[4];
-      const double least = frames_[std::size_t(t)].weights(p, w);
-      if (least > best) {
-        best = least;
-        found = t;
-      }
-      return best < 0;
-    });
-    return best >= 0;
-  });
-  return found;
 }
 
 }  // namespace tetlod

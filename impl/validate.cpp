@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "budget.hpp"
 #include "extract_boundary.hpp"
 #include "face_sweep.hpp"
 #include "geometry.hpp"
@@ -265,6 +266,9 @@ constexpr Rule rules[] = {
     {&Defects::unused, &Options::on_unused, Status::mesh_degenerate, "points are in no tet, the first is point"},
 };
 
+/// TetGen takes none.
+bool takes_contacts(const Options &options) { return !as_published(options) && options.on_overlap == policy_repair; }
+
 }  // namespace
 
 Defects find_defects(const Input &input, const Options &options, Job &job) {
@@ -283,7 +287,11 @@ Error verdict_on(const Input &input, const Options &options, const Defects &defe
     SurfaceTopology topology(job.memory);
     find_topology(surface.points, surface.triangles, job, topology, host_numbers(surface, input.index_base));
     TreeOnDemand tree(surface);
-    refuse_intersections(surface, topology, tree, input.index_base, job);
+    ContactsOnDemand contacts;
+    if (takes_contacts(options))
+      refuse_overlaps(surface, topology, contacts, tree, input.index_base, job);
+    else
+      refuse_intersections(surface, topology, tree, input.index_base, job);
   } catch (const Error &error) {
     if (!blames_the_mesh(error)) throw;
     return error;

@@ -196,6 +196,29 @@ TEST(Messages, NameVerticesAndTetsAsTheHostDoes) {
   EXPECT_NE(told(wedges, 0, TETLOD_ERR_MESH_INTERSECTING).find("edge from vertex 7 to vertex 8"), std::string::npos);
 }
 
+/// As published, and by a policy; else they are simplified each for itself, and tetlod_check says so.
+TEST(Assemblies, AreTakenWhereTetGenIsNotNeeded) {
+  const Cube parts = shifted(1, 0.25, 0.125), overlap = shifted(0.9, 0.25, 0.125);
+  const Context context = make_context();
+  const auto expect = [&](const Cube &cube, tetlod_status status) {
+    submit(context.get(), cube);
+    EXPECT_EQ(tetlod_run(context.get()), status) << message_of(context.get());
+    tetlod_mesh_report report{};
+    report.struct_size = sizeof report;
+    EXPECT_EQ(tetlod_check(context.get(), &report), TETLOD_OK);
+    EXPECT_EQ(report.status, status);
+    EXPECT_EQ(report.components, 2);
+  };
+  expect(parts, TETLOD_ERR_MESH_INTERSECTING);
+  for (const std::int32_t option : {TETLOD_OPT_TARGET_RATIO, TETLOD_OPT_MAX_ERROR}) {
+    ASSERT_EQ(tetlod_set_real(context.get(), option, 0.5), TETLOD_OK);
+    expect(parts, TETLOD_OK);
+    expect(overlap, TETLOD_ERR_MESH_INTERSECTING);
+  }
+  ASSERT_EQ(tetlod_set_int(context.get(), TETLOD_OPT_ON_OVERLAP, 0), TETLOD_OK);
+  expect(parts, TETLOD_ERR_MESH_INTERSECTING);
+}
+
 /// Of an assembly each part alone could be simplified, of a body that crosses itself none.
 TEST(Messages, TellSolidsInContactFromABodyThatCrossesItself) {
   EXPECT_EQ(told(shifted(1, 0.25, 0.125), 0, TETLOD_ERR_MESH_INTERSECTING).find("components of the boundary"), 0u);

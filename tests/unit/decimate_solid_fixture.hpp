@@ -43,6 +43,7 @@ class DecimateSolid : public testing::Test {
   Surface surface{host.memory};
   SurfaceTopology topology{host.memory};
   TreeOnDemand tree;
+  ContactsOnDemand contacts;
   SolidOptions options;
   std::int64_t lowered = 0;  ///< as decimate_solid_and_check has it
   std::string failure;       ///< of the last decimation
@@ -56,6 +57,7 @@ class DecimateSolid : public testing::Test {
     make_surface(original.view(), boundary.triangles, host.job, surface);
     find_topology(surface.points, surface.triangles, host.job, topology);
     tree = TreeOnDemand(surface);
+    contacts = {};
   }
 
   bool decimate(double ratio, Host &on, CoarseSolid &coarse) {
@@ -67,8 +69,9 @@ class DecimateSolid : public testing::Test {
     options.tets = std::int64_t(ratio * double(original.tets.size()));
     const MeshView view = original.view();
     TreeOnDemand tree_there(surface);  // of memory of `on`
-    coarse =
-        decimate_solid_and_check({view, boundary, surface, topology, tree_there}, options, lowered, history, on.job);
+    ContactsOnDemand contacts_there;
+    coarse = decimate_solid_and_check({view, boundary, surface, topology, tree_there, contacts_there}, options, lowered,
+                                      history, on.job);
     failure = coarse.wrong;
     return failure.empty();
   }

@@ -93,7 +93,8 @@ class FirstAttempt : public Beginning {
     SolidHistory none(job_.memory);
     const Surface &surface = prepared_.surface(job_);
     TreeOnDemand tree(surface);
-    const OriginalSolid original{original_.view, boundary_, surface, prepared_.topology(job_), tree};
+    const OriginalSolid original{original_.view,           boundary_, surface,
+                                 prepared_.topology(job_), tree,      prepared_.contacts()};
     TetMesh mesh = decimate_solid_and_check(original, solid, sizes.lowered, none, job_).mesh;
     RefineOptions refining;
     refining.tets = budget_.tets;

@@ -208,7 +208,8 @@ TEST_F(DecimateSolid, CareBeginsAtNoStateThatIsTooCoarse) {
     options.tets = std::int64_t(ratio * double(original.tets.size()));
     Array<std::int32_t> origin(&host.memory);
     const MeshView view = original.view();
-    return decimate_solid({view, boundary, surface, topology, tree}, options, history, host.job, mesh, origin);
+    return decimate_solid({view, boundary, surface, topology, tree, contacts}, options, history, host.job, mesh,
+                          origin);
   };
   SolidHistory with(host.memory), without(host.memory);
   TetMesh careless(host.memory), careful(host.memory), alone(host.memory);

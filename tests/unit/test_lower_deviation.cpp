@@ -229,7 +229,8 @@ TEST_F(LowerDeviation, LowersWhatStandsOutInAnyCase) {
     SolidHistory history(host.memory);
     ASSERT_TRUE(decimate(ratio, host, with)) << failure;
     const MeshView view = original.view();
-    decimate_solid({view, boundary, surface, topology, tree}, options, history, host.job, without.mesh, without.origin);
+    decimate_solid({view, boundary, surface, topology, tree, contacts}, options, history, host.job, without.mesh,
+                   without.origin);
     make_surface({without.mesh.points, without.mesh.scalars, without.mesh.tets, 1}, without.mesh.boundary, host.job,
                  without.surface);
     const double before =

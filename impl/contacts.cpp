@@ -1,0 +1,227 @@
+#include "contacts.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "came_from.hpp"
+#include "geometry.hpp"
+#include "predicates.hpp"
+#include "surface_distance.hpp"
+#include "whole_arrays.hpp"
+
+namespace tetlod {
+
+namespace {
+
+/// Of the diagonal: how far solids that touch may reach into each other, as coordinates have few digits in some files,
+/// and how far behind a triangle one looks at least.
+constexpr double most_reach = 1e-3, least_reach = 1e-6;
+constexpr std::size_t block = 256;
+
+/// Two triangles that do, and how far they reach into each other.
+struct Meeting {
+  std::int32_t a, b;
+  double reach;
+};
+
+struct Extent {
+  double low, high;
+};
+
+Extent extent_along(const Vec3 &axis, const Vec3 &from, const Vec3 p[3]) {
+  const double a = glm::dot(axis, p[0] - from), b = glm::dot(axis, p[1] - from), c = glm::dot(axis, p[2] - from);
+  return {std::min({a, b, c}), std::max({a, b, c})};
+}
+
+template <class T>
+void sort_unique(Array<T> &array) {
+  std::sort(array.begin(), array.end());
+  array.erase(std::unique(array.begin(), array.end()), array.end());
+}
+
+/// How far two triangles reach into each other along an axis; without end where it has no length.
+double reach_along(const Vec3 &axis, const Vec3 a[3], const Vec3 b[3]) {
+  const double length = glm::length(axis);
+  if (!(length > 0)) return std::numeric_limits<double>::infinity();
+  const Extent of_a = extent_along(axis / length, a[0], a), of_b = extent_along(axis / length, a[0], b);
+  return std::min(of_a.high - of_b.low, of_b.high - of_a.low);
+}
+
+/// Along the axis along which it is the least.
+double reach_of(const Vec3 a[3], const Vec3 b[3]) {
+  double least = reach_along(area_vector(a[0], a[1], a[2]), a, b);
+  least = std::min(least, reach_along(area_vector(b[0], b[1], b[2]), a, b));
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++)
+      least = std::min(least, reach_along(glm::cross(a[(i + 1) % 3] - a[i], b[(j + 1) % 3] - b[j]), a, b));
+  return least;
+}
+
+class ContactFinder {
+ public:
+  ContactFinder(const Surface &surface, const SurfaceTopology &topology, const TriangleTree &tree, Job &job)
+      : surface_(surface), topology_(topology), tree_(tree), job_(job), diagonal_(box_of(surface.points).diagonal()) {}
+
+  Contacts find() const {
+    const Array<Meeting> meetings = find_meetings();
+    const Array<std::uint8_t> covered = find_covered(meetings);
+    Array<std::uint64_t> meet(&job_.memory), overlap(&job_.memory);
+    for (const Meeting &m : meetings) {
+      const bool overlaps = m.reach > most_reach * diagonal_ || covered[std::size_t(m.a)] || covered[std::size_t(m.b)];
+      (overlaps ? overlap : meet).push_back(Contacts::pair_of(component(m.a), component(m.b)));
+    }
+    std::sort(overlap.begin(), overlap.end());
+    const auto overlaps = [&](std::uint64_t pair) { return std::binary_search(overlap.begin(), overlap.end(), pair); };
+    meet.erase(std::remove_if(meet.begin(), meet.end(), overlaps), meet.end());
+    return Contacts(std::move(meet));
+  }
+
+ private:
+  std::int32_t component(std::int32_t t) const { return topology_.component[std::size_t(t)]; }
+  TriangleInSpace triangle(std::int32_t t) const { return {surface_.points, surface_.triangles[std::size_t(t)]}; }
+
+  /// Appends it to those that meet, if it does.
+  void look_at(std::int32_t a, std::int32_t b, Array<Meeting> &meetings) const {
+    const TriangleInSpace p = triangle(a), q = triangle(b);
+    const Vec3 first[3] = {p.a, p.b, p.c}, second[3] = {q.a, q.b, q.c};
+    if (!triangles_apart(first, surface_.triangles[std::size_t(a)], second, surface_.triangles[std::size_t(b)]))
+      meetings.push_back({a, b, reach_of(first, second)});
+  }
+
+  /// Of different components.
+  Array<Meeting> find_meetings() const {
+    const std::size_t count = surface_.triangles.size();
+    Array<Array<Meeting>> of_block(count / block + 1, &job_.memory);
+    job_.parallel.for_blocks(count, block, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t t = begin; t < end; t++) {
+        if (t % 8 == 0) job_.poll(double(t) / double(count));
+        const auto a = std::int32_t(t);
+        tree_.for_near(a, [&](std::int32_t b) {
+          if (b > a && component(a) != component(b)) look_at(a, b, of_block[begin / block]);
+        });
+      }
+    });
+    Array<Meeting> all(&job_.memory);
+    for (const Array<Meeting> &some : of_block) all.insert(all.end(), some.begin(), some.end());
+    return all;
+  }
+
+  /// Of each triangle that meets another: whether it lies in another solid's material.
+  Array<std::uint8_t> find_covered(const Array<Meeting> &meetings) const {
+    Array<double> reach(std::size_t(topology_.components), least_reach * diagonal_, &job_.memory);
+    Array<std::uint8_t> meets(surface_.triangles.size(), 0, &job_.memory), covered = meets;
+    for (const Meeting &m : meetings)
+      for (const std::int32_t t : {m.a, m.b}) {
+        double &most = reach[std::size_t(component(t))];
+        if (m.reach <= most_reach * diagonal_) most = std::max(most, m.reach);
+        meets[std::size_t(t)] = 1;
+      }
+    for_each(meets.size(), job_, [&](std::size_t t) {
+      const auto triangle = std::int32_t(t);
+      covered[t] = meets[t] && !has_material_once(triangle, reach[std::size_t(component(triangle))]);
+    });
+    return covered;
+  }
+
+  /// Just behind it, farther than solids that touch reach into each other.
+  bool has_material_once(std::int32_t t, double reach) const {
+    const TriangleInSpace at = triangle(t);
+    const Vec3 normal = area_vector(at.a, at.b, at.c);
+    const double length = glm::length(normal);
+    return length > 0 && tree_.depth(at.middle() - 2 * reach / length * normal) == 1;
+  }
+
+  const Surface &surface_;
+  const SurfaceTopology &topology_;
+  const TriangleTree &tree_;
+  Job &job_;
+  double diagonal_;
+};
+
+}  // namespace
+
+Contacts::Contacts(Array<std::uint64_t> pairs) : pairs_(std::move(pairs)), members_(pairs_.get_allocator()) {
+  for (const std::uint64_t pair : pairs_)
+    members_.insert(members_.end(), {std::int32_t(pair >> 32), std::int32_t(std::uint32_t(pair))});
+  sort_unique(pairs_);
+  sort_unique(members_);
+}
+
+std::uint64_t Contacts::pair_of(std::int32_t a, std::int32_t b) {
+  return std::uint64_t(std::uint32_t(std::min(a, b))) << 32 | std::uint32_t(std::max(a, b));
+}
+
+bool Contacts::between(std::int32_t a, std::int32_t b) const {
+  return std::binary_search(pairs_.begin(), pairs_.end(), pair_of(a, b));
+}
+
+bool Contacts::any(std::int32_t component) const {
+  return std::binary_search(members_.begin(), members_.end(), component);
+}
+
+Contacts find_contacts(const Surface &surface, const SurfaceTopology &topology, TreeOnDemand &tree, Job &job) {
+  if (topology.components < 2) return Contacts(job.memory);
+  return ContactFinder(surface, topology, tree.get(job), job).find();
+}
+
+Array<std::int32_t> components_of_vertices(const Surface &surface, const SurfaceTopology &topology,
+                                           std::size_t vertices, Memory &memory) {
+  constexpr std::int32_t none = -1, several = -2;
+  Array<std::int32_t> component(vertices, none, &memory);
+  for (std::size_t t = 0; t < surface.triangles.size(); t++)
+    for (const std::int32_t corner : surface.triangles[t]) {
+      std::int32_t &of_vertex = component[std::size_t(surface.origin[std::size_t(corner)])];
+      if (of_vertex == none || of_vertex == topology.component[t])
+        of_vertex = topology.component[t];
+      else
+        of_vertex = several;
+    }
+  std::replace(component.begin(), component.end(), several, none);
+  return component;
+}
+
+Array<std::int32_t> components_of_triangles(Span<const Triangle> triangles, Span<const std::int32_t> origin,
+                                            Span<const std::int32_t> of_vertices, Memory &memory) {
+  Array<std::int32_t> component(triangles.size(), -1, &memory);
+  for (std::size_t t = 0; t < triangles.size(); t++)
+    for (const std::int32_t corner : triangles[t])
+      if (corner >= 0)
+        component[t] = std::max(component[t], of_vertices[std::size_t(came_from(origin[std::size_t(corner)]))]);
+  return component;
+}
+
+Array<std::int32_t> original_components(Span<const Triangle> triangles, const SurfaceTopology &topology,
+                                        Span<const std::int32_t> vertex, const Surface &original,
+                                        const SurfaceTopology &topology_of_original, Memory &memory) {
+  const auto key = [](std::int32_t high, std::int32_t low) {
+    return std::uint64_t(std::uint32_t(high)) << 32 | std::uint32_t(low);
+  };
+  Array<std::uint64_t> at_vertex(&memory), votes(&memory);  // a vertex, or a component, and an original component
+  for (std::size_t t = 0; t < original.triangles.size(); t++)
+    for (const std::int32_t corner : original.triangles[t])
+      at_vertex.push_back(key(original.origin[std::size_t(corner)], topology_of_original.component[t]));
+  sort_unique(at_vertex);
+  for (std::size_t t = 0; t < triangles.size(); t++)
+    for (const std::int32_t corner : triangles[t]) {
+      const std::int32_t v = vertex[std::size_t(corner)];
+      auto at = std::lower_bound(at_vertex.begin(), at_vertex.end(), key(v, 0));
+      for (; at != at_vertex.end() && std::int32_t(*at >> 32) == v; ++at)
+        votes.push_back(key(topology.component[t], std::int32_t(std::uint32_t(*at))));
+    }
+  std::sort(votes.begin(), votes.end());
+  Array<std::int32_t> winner(std::size_t(topology.components), -1, &memory);
+  Array<std::size_t> most(winner.size(), 0, &memory);
+  for (std::size_t first = 0, last = 0; first < votes.size(); first = last) {
+    while (last < votes.size() && votes[last] == votes[first]) last++;
+    const auto component = std::size_t(votes[first] >> 32);
+    if (last - first <= most[component]) continue;
+    most[component] = last - first;
+    winner[component] = std::int32_t(std::uint32_t(votes[first]));
+  }
+  Array<std::int32_t> of_triangle(&memory);
+  of_triangle.reserve(triangles.size());
+  for (const std::int32_t component : topology.component) of_triangle.push_back(winner[std::size_t(component)]);
+  return of_triangle;
+}
+
+}  // namespace tetlod

@@ -1,0 +1,73 @@
+// Solids in contact: they lie on one another without sharing triangles, as the parts of an assembly do.
+#pragma once
+#include <optional>
+
+#include "job.hpp"
+#include "mesh.hpp"
+#include "surface_topology.hpp"
+
+namespace tetlod {
+
+class TreeOnDemand;
+
+/// Pairs of components of a surface.
+class Contacts {
+ public:
+  explicit Contacts(Memory &memory) : pairs_(&memory), members_(&memory) {}
+  /// Pairs as pair_of() has them, in any order.
+  explicit Contacts(Array<std::uint64_t> pairs);
+
+  static std::uint64_t pair_of(std::int32_t a, std::int32_t b);
+
+  bool empty() const { return pairs_.empty(); }
+  bool between(std::int32_t a, std::int32_t b) const;
+  /// Of this one with any other.
+  bool any(std::int32_t component) const;
+
+ private:
+  Array<std::uint64_t> pairs_;   // ascending
+  Array<std::int32_t> members_;  // ascending
+};
+
+/// Those whose triangles meet, but nowhere reach into each other by more than doubles, or floats, round: where they
+/// meet, there is material of one solid behind each.
+Contacts find_contacts(const Surface &surface, const SurfaceTopology &topology, TreeOnDemand &tree, Job &job);
+
+/// Which triangles of a surface, or vertices, may meet: of components in contact.
+struct MayMeet {
+  const Contacts *contacts = nullptr;       ///< null: none
+  Span<const std::int32_t> component = {};  ///< of each, as the contacts count them; -1: not known
+  bool operator()(std::int32_t a, std::int32_t b) const {
+    return contacts && contacts->between(component[std::size_t(a)], component[std::size_t(b)]);
+  }
+  bool any(std::int32_t a) const { return contacts && contacts->any(component[std::size_t(a)]); }
+};
+
+/// Of so many vertices of the original, whose boundary the surface is; -1: inside, or of several.
+Array<std::int32_t> components_of_vertices(const Surface &surface, const SurfaceTopology &topology,
+                                           std::size_t vertices, Memory &memory);
+
+/// Of each triangle of what has become of it, whose points are these vertices or have come from them (came_from.hpp),
+/// by a corner that is of one; -1: none is, or the triangle is none, with corners -1.
+Array<std::int32_t> components_of_triangles(Span<const Triangle> triangles, Span<const std::int32_t> origin,
+                                            Span<const std::int32_t> of_vertices, Memory &memory);
+
+/// The same of a whole surface: of each of its components, the original's that has most of the vertices. vertex: of
+/// each of its points, the original's that it is or has come from.
+Array<std::int32_t> original_components(Span<const Triangle> triangles, const SurfaceTopology &topology,
+                                        Span<const std::int32_t> vertex, const Surface &original,
+                                        const SurfaceTopology &topology_of_original, Memory &memory);
+
+/// Of a surface, looked for when they are first asked for.
+class ContactsOnDemand {
+ public:
+  const Contacts &get(const Surface &surface, const SurfaceTopology &topology, TreeOnDemand &tree, Job &job) {
+    if (!contacts_) contacts_ = find_contacts(surface, topology, tree, job);
+    return *contacts_;
+  }
+
+ private:
+  std::optional<Contacts> contacts_;
+};
+
+}  // namespace tetlod

@@ -1,0 +1,228 @@
+// Solids in contact: each is simplified for itself.
+#include <limits>
+#include <map>
+
+#include "disjoint_sets.hpp"
+#include "surface_topology.hpp"
+#include "whole_run.hpp"
+
+namespace tetlod {
+namespace {
+
+using namespace test;
+
+class Assemblies : public WholeRun {
+ protected:
+  void add(Mesh part) {
+    set_scalars(part, waves);
+    append(assembly, part);
+    parts.push_back(std::move(part));
+  }
+  void add(int cells, const Vec3 &low, const Vec3 &high) {
+    Mesh part = kuhn_cube(cells);
+    transform(part, [&](const Vec3 &p) { return low + p * (high - low); });
+    add(std::move(part));
+  }
+
+  /// Rows of bricks, each of which lies on two of the row below.
+  void start_with_bricks() {
+    for (int row = 0; row < 3; row++)
+      for (int i = 0; i < 3; i++) {
+        const Vec3 low(i + 0.47 * (row % 2), 0.1 * row + 0.03 * i, 0.5 * row);
+        add(5 + (row + i) % 3, low, low + Vec3(1, 1, 0.5));
+      }
+  }
+
+  /// A ball on a plate, into which it reaches by that part of the diagonal, about.
+  void start_with_ball(double reach) {
+    add(6, Vec3(-1.5, -1.5, -1), Vec3(1.5, 1.5, 0));
+    Mesh ball = kuhn_cube(10);
+    transform(ball, [&](const Vec3 &p) {
+      const Vec3 q = 2.0 * p - Vec3(1);
+      const double largest = std::max({std::abs(q.x), std::abs(q.y), std::abs(q.z)}), length = glm::length(q);
+      return (length > 0 ? largest / length * q : q) + Vec3(0.2, 0.1, 1 - 5 * reach);
+    });
+    add(std::move(ball));
+  }
+
+  void expect_each_sound(double volume_error = 0.01) {
+    expect_sound(assembly, volume_error);
+    Surface surface(host.memory);
+    make_surface({mesh().points, mesh().scalars, mesh().tets}, mesh().boundary, host.job, surface);
+    SurfaceTopology topology(host.memory);
+    find_topology(surface.points, surface.triangles, host.job, topology);
+    for (std::int32_t c = 0; c < topology.components; c++) {
+      Surface component(host.memory);
+      component.points = surface.points;
+      for (std::size_t t = 0; t < surface.triangles.size(); t++)
+        if (topology.component[t] == c) component.triangles.push_back(surface.triangles[t]);
+      EXPECT_TRUE(crossings(component, host.memory).empty()) << "component " << c;
+    }
+  }
+
+  struct Extent {
+    Vec3 low{std::numeric_limits<double>::infinity()}, high{-low};
+    void add(const Vec3 &p) {
+      low = glm::min(low, p);
+      high = glm::max(high, p);
+    }
+    double distance(const Extent &other) const { return glm::length(low - other.low) + glm::length(high - other.high); }
+  };
+
+  /// The tets that hang together and are where the part is.
+  TetMesh result_of(const Mesh &part) {
+    DisjointSets sets(mesh().points.size(), host.memory);
+    for (const Tet &t : mesh().tets)
+      for (const std::int32_t v : t) sets.join(t[0], v);
+    std::map<std::int32_t, Extent> extents;
+    for (const Tet &t : mesh().tets)
+      for (const std::int32_t v : t) extents[sets.lowest(v)].add(mesh().points[std::size_t(v)]);
+    Extent of_part;
+    for (const Vec3 &p : part.points) of_part.add(p);
+    const auto nearer = [&](const auto &a, const auto &b) {
+      return a.second.distance(of_part) < b.second.distance(of_part);
+    };
+    const std::int32_t nearest = std::min_element(extents.begin(), extents.end(), nearer)->first;
+    TetMesh result(host.memory);
+    result.points = mesh().points;
+    result.scalars = mesh().scalars;
+    for (const Tet &t : mesh().tets)
+      if (sets.lowest(t[0]) == nearest) result.tets.push_back(t);
+    return result;
+  }
+
+  /// Of a part's vertices in what became of that part, over the range of all.
+  double largest_error_of(const Mesh &part) {
+    const auto range_of = [](const Mesh &of) {
+      const auto [least, most] = std::minmax_element(of.scalars.begin(), of.scalars.end());
+      return *most - *least;
+    };
+    return brute_largest_error(part, result_of(part)) * range_of(part) / range_of(assembly);
+  }
+
+  double part_left() const { return double(mesh().tets.size()) / double(assembly.tets.size()); }
+
+  Mesh assembly;
+  std::vector<Mesh> parts;
+};
+
+TEST_F(Assemblies, PartsThatTouchAreSimplified) {
+  start_with_bricks();
+  for (const auto effort : {effort_fast, effort_accurate})
+    for (const double ratio : {0.5, 0.2, 0.1, 0.05}) {
+      options.effort = effort;
+      options.target_ratio = ratio;
+      simplify(assembly);
+      expect_each_sound();
+      EXPECT_NEAR(part_left() / ratio, 1, 0.03) << ratio << ' ' << effort;
+      EXPECT_LT(report().max_deviation, 0.01) << ratio << ' ' << effort;
+      EXPECT_EQ(report().remesh_attempts, 0);
+    }
+}
+
+/// Where two have a place in common, that of the one's vertices in the one, though the other is coarser there.
+TEST_F(Assemblies, BoundsHold) {
+  start_with_bricks();
+  options.target_ratio = 0;
+  for (const double bound : {0.1, 0.02}) {
+    options.max_error = bound;
+    simplify(assembly);
+    expect_each_sound();
+    EXPECT_LE(report().max_error, bound);
+    for (const Mesh &part : parts) EXPECT_LE(largest_error_of(part), bound);
+  }
+}
+
+TEST_F(Assemblies, PartsMayReachIntoEachOtherALittle) {
+  options.effort = effort_fast;
+  options.target_ratio = 0.1;
+  for (const double reach : {0.0, 0.0002, 0.0009}) {
+    assembly = {};
+    parts.clear();
+    start_with_ball(reach);
+    simplify(assembly);
+    expect_each_sound();
+    EXPECT_NEAR(part_left(), 0.1, 0.003);
+  }
+  assembly = {};
+  start_with_ball(0.01);
+  EXPECT_EQ(status(assembly), Status::mesh_intersecting);
+}
+
+/// The slab's slits come to cross themselves, so that collapses are looked at one by one; the block on it is no
+/// hindrance.
+TEST_F(Assemblies, CareLeavesContactsAlone) {
+  Mesh slab = slab_with_slits(8, 4);
+  Vec3 low = slab.points[0], high = low;
+  for (const Vec3 &p : slab.points) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  add(std::move(slab));
+  const Vec3 corner(low.x + 0.1, low.y + 0.15, high.z);
+  add(5, corner, corner + 0.55 * (high - low));
+  options.effort = effort_fast;
+  for (const double ratio : {0.1, 0.05}) {
+    options.target_ratio = ratio;
+    std::string said;
+    host.job.log = [&](int, const char *message) { said += message; };
+    simplify(assembly);
+    EXPECT_NE(said.find("with more care"), std::string::npos);
+    expect_each_sound();
+    EXPECT_NEAR(part_left() / ratio, 1, 0.03) << ratio;
+  }
+}
+
+/// From samples, which TetGen has to be asked for, where edges do not collapse first.
+TEST_F(Assemblies, EdgesOfLargeOnesCollapseToAnySize) {
+  add(26, Vec3(0), Vec3(1));
+  add(4, Vec3(0.3, 0.2, 1), Vec3(0.8, 0.7, 1.5));
+  options.effort = effort_fast;
+  options.target_ratio = 0.02;
+  simplify(assembly);
+  expect_each_sound();
+  EXPECT_NEAR(part_left(), 0.02, 0.0006);
+  EXPECT_LT(report().max_deviation, 0.01);
+}
+
+TEST_F(Assemblies, AreTheSameForAnyNumberOfThreadsAndInLaterRuns) {
+  start_with_bricks();
+  options.target_ratio = 0.1;
+  simplify(assembly);
+  const std::uint64_t hash = report().hash;
+  Host two(2);
+  Prepared prepared(two.memory);
+  for (const double ratio : {0.1, 0.05, 0.1}) {
+    options.target_ratio = ratio;
+    Result later(two.memory);
+    run(input_of(assembly), options, worker, prepared, two.job, later);
+    EXPECT_EQ(later.report.hash == hash, ratio == 0.1);
+  }
+}
+
+TEST_F(Assemblies, AreRefusedWhereTetGenIsNeeded) {
+  start_with_bricks();
+  options.target_ratio = 0;
+  EXPECT_EQ(status(assembly), Status::mesh_intersecting);  // as published
+  options.target_ratio = 0.1;
+  options.clean_edges = 0.001;
+  EXPECT_EQ(status(assembly), Status::mesh_intersecting);
+  options.clean_edges = 0;
+  options.remesh = 0;
+  EXPECT_EQ(status(assembly), Status::ok);
+}
+
+TEST_F(Assemblies, OverlapsBesideContactsAreRefused) {
+  start_with_bricks();
+  add(3, Vec3(-0.8, 0.3, 0.1), Vec3(0.2, 0.8, 0.4));
+  for (const auto effort : {effort_fast, effort_accurate})
+    for (const bool remesh : {false, true}) {
+      options.effort = effort;
+      options.remesh = remesh;
+      options.target_ratio = 0.1;
+      EXPECT_EQ(status(assembly), Status::mesh_intersecting) << effort << remesh;
+    }
+}
+
+}  // namespace
+}  // namespace tetlod
