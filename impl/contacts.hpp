@@ -29,8 +29,8 @@ class Contacts {
   Array<std::int32_t> members_;  // ascending
 };
 
-/// Those whose triangles meet, but nowhere reach into each other by more than doubles, or floats, round: where they
-/// meet, there is material of one solid behind each.
+/// Those whose triangles meet, but nowhere reach into each other by more than a thousandth of the diagonal, along the
+/// axis along which they do so least; and where they meet, there is material once, of one solid, behind each.
 Contacts find_contacts(const Surface &surface, const SurfaceTopology &topology, TreeOnDemand &tree, Job &job);
 
 /// Which triangles of a surface, or vertices, may meet: of components in contact.
