@@ -35,14 +35,18 @@ Array<Vec3> find_centroids(Span<const Vec3> points, Span<const Tet> tets, Job &j
 }
 
 /// The submitted tet that each tet of the result takes its values from.
-Array<std::int32_t> find_sources(const Options &options, const Original &original, const Boundary &boundary,
-                                 Span<const Vec3> centroids, Job &job) {
+Array<std::int32_t> find_sources(const Options &options, const MeshView &original, Span<const std::int32_t> tet_number,
+                                 const Boundary &boundary, Span<const Vec3> points, const TetMesh &mesh, Job &job) {
+  const Array<Vec3> centroids = find_centroids(points, mesh.tets, job);
+  Array<std::int32_t> solid(&job.memory);
+  if (!mesh.solid.empty())
+    for (const Tet &t : mesh.tets) solid.push_back(solid_of(mesh.solid, t));
   Array<Place> places(&job.memory);
-  locate(original.view, boundary.triangles, centroids, options.tet_leaf, job, places);
+  locate(original, boundary.triangles, centroids, solid, options.tet_leaf, job, places);
   Array<std::int32_t> sources = array_of(places.size(), -1, job);
   for_each(places.size(), job, [&](std::size_t i) {
     const std::int32_t tet = places[i].tet >= 0 ? places[i].tet : boundary.tet_of[std::size_t(places[i].triangle)];
-    sources[i] = original.tet_number.empty() ? tet : original.tet_number[std::size_t(tet)];
+    sources[i] = tet_number.empty() ? tet : tet_number[std::size_t(tet)];
   });
   return sources;
 }
@@ -66,16 +70,18 @@ void carry_along(const Way &way, std::size_t tuples, const SubmittedField &field
 
 }  // namespace
 
-void carry_fields(const Input &input, const Options &options, const Original &original, const Boundary &boundary,
-                  Job &job, Result &result) {
+void carry_fields(const Input &input, const Options &options, const Original &original, Span<const std::int32_t> solids,
+                  const Boundary &boundary, Job &job, Result &result) {
   if (input.fields.empty()) return;
+  MeshView view = original.view;
+  view.solid = solids;
   Array<Vec3> copy(&job.memory);
   const Span<const Vec3> points = scaled_points(original, result.mesh, copy);
   Array<std::int32_t> sources(&job.memory);
   if (any_of_association(input, Association::point))
-    find_stencils(original.view, boundary.triangles, points, options.tet_leaf, job, result.stencil);
+    find_stencils(view, boundary.triangles, points, result.mesh.solid, options.tet_leaf, job, result.stencil);
   if (any_of_association(input, Association::cell))
-    sources = find_sources(options, original, boundary, find_centroids(points, result.mesh.tets, job), job);
+    sources = find_sources(options, view, original.tet_number, boundary, points, result.mesh, job);
   for (const SubmittedField &field : input.fields) {
     if (field.association == Association::point)
       carry_along(result.stencil, result.mesh.points.size(), field, job, result);
@@ -117,10 +123,12 @@ void find_stencil(const Input &input, const Options &options, Prepared &prepared
     bare.flags = {};  // which change nothing here, and may be wrong
     prepare_with_boundary(bare, options, job, fresh.original, fresh.boundary);
   }
-  const Prepared &of = held ? prepared : fresh;
+  Prepared &of = held ? prepared : fresh;
+  MeshView view = of.original.view;
+  if (!result.mesh.solid.empty()) view.solid = of.solids(job);
   Array<Vec3> copy(&job.memory);
   Stencil stencil(job.memory);
-  find_stencils(of.original.view, of.boundary.triangles, scaled_points(of.original, result.mesh, copy),
+  find_stencils(view, of.boundary.triangles, scaled_points(of.original, result.mesh, copy), result.mesh.solid,
                 options.tet_leaf, job, stencil);
   result.stencil = std::move(stencil);
 }

@@ -8,9 +8,10 @@ namespace tetlod {
 
 /// Writes result.fields, and result.stencil when there is a field of points. A tet of the result takes the value of
 /// the original tet that holds its centroid, or whose face is the boundary's nearest to it: values of cells are often
-/// numbers of regions and materials, of which a mean means nothing. Without fields nothing is done.
-void carry_fields(const Input &input, const Options &options, const Original &original, const Boundary &boundary,
-                  Job &job, Result &result);
+/// numbers of regions and materials, of which a mean means nothing. Without fields nothing is done. solids: of the
+/// original's vertices, where the result's are known; else empty.
+void carry_fields(const Input &input, const Options &options, const Original &original, Span<const std::int32_t> solids,
+                  const Boundary &boundary, Job &job, Result &result);
 
 /// result.mesh.scalars, of all fields that steer, becomes those of the first; result.fields gets the others.
 void split_fields(const Input &input, Job &job, Result &result);

@@ -9,7 +9,7 @@ namespace tetlod {
 void interpolate(const MeshView &mesh, Span<const Triangle> boundary, Span<const Vec3> points, std::int64_t leaf,
                  Job &job, Array<double> &values) {
   Stencil stencil(job.memory);
-  find_stencils(mesh, boundary, points, leaf, job, stencil);
+  find_stencils(mesh, boundary, points, {}, leaf, job, stencil);
   const auto fields = int(mesh.fields);
   values.resize(points.size() * mesh.fields);
   transfer(stencil, packed_array(mesh.scalars.data(), mesh.points.size(), fields),

@@ -36,7 +36,8 @@ struct Hit {
 /// once, and is halved where that finds too many points.
 class PointTree {
  public:
-  PointTree(const MeshView &mesh, Span<const Vec3> points, Job &job) : mesh_(mesh), points_(points), tree_(job.memory) {
+  PointTree(const MeshView &mesh, Span<const Vec3> points, Span<const std::int32_t> solid, Job &job)
+      : mesh_(mesh), points_(points), solid_(solid), tree_(job.memory) {
     tree_.build(boxes_of(points.size(), job, [&](std::size_t i) { return box_at(points[i]); }), 8, job);
   }
 
@@ -72,7 +73,11 @@ class PointTree {
     const Box at = box_at(points_[point]);
     Hit &best = hits[point];
     for (std::size_t k = 0; k < boxes.size() && !best.is_last(); k++)
-      if (overlap(boxes[k], at)) look_into(first + k, points_[point], best);
+      if (overlap(boxes[k], at) && may_hold(first + k, point)) look_into(first + k, points_[point], best);
+  }
+
+  bool may_hold(std::size_t t, std::size_t point) const {
+    return solid_.empty() || may_be_one(solid_[point], solid_of(mesh_.solid, mesh_.tets[t]));
   }
 
   void look_into(std::size_t t, const Vec3 &p, Hit &best) const {
@@ -93,13 +98,15 @@ class PointTree {
 
   const MeshView &mesh_;
   Span<const Vec3> points_;
+  Span<const std::int32_t> solid_;
   KdTree tree_;
 };
 
 /// Of each point the tet that holds it best, the lowest of those; -1: none. Each part of the tets has hits of its own.
-Array<std::int32_t> find_tets(const MeshView &mesh, Span<const Vec3> points, std::int64_t leaf, Job &job) {
+Array<std::int32_t> find_tets(const MeshView &mesh, Span<const Vec3> points, Span<const std::int32_t> solid,
+                              std::int64_t leaf, Job &job) {
   constexpr std::size_t most_parts = 16, most_boxes = 1 << 12;  // for memory's sake
-  const PointTree tree(mesh, points, job);
+  const PointTree tree(mesh, points, solid, job);
   const std::size_t run = std::min(std::size_t(leaf), most_boxes);
   const std::size_t size = mesh.tets.size() / std::min(std::size_t(job.parallel.threads()), most_parts) + 1;
   Array<Array<Hit>> hits(mesh.tets.size() / size + 1, &job.memory);
@@ -131,8 +138,7 @@ void settle(std::array<double, 4> &weights) {
   for (double &w : weights) w /= total;
 }
 
-void find_on_boundary(const TriangleTree &boundary, const Vec3 &p, Place &place) {
-  const NearestPoint at = boundary.nearest(p);
+void find_on_boundary(const NearestPoint &at, Place &place) {
   place.triangle = at.triangle;
   place.weights = {at.weights.x, at.weights.y, at.weights.z, 0};
   settle(place.weights);
@@ -140,11 +146,11 @@ void find_on_boundary(const TriangleTree &boundary, const Vec3 &p, Place &place)
 
 }  // namespace
 
-void locate(const MeshView &mesh, Span<const Triangle> boundary, Span<const Vec3> points, std::int64_t leaf, Job &job,
-            Array<Place> &places) {
+void locate(const MeshView &mesh, Span<const Triangle> boundary, Span<const Vec3> points,
+            Span<const std::int32_t> solid, std::int64_t leaf, Job &job, Array<Place> &places) {
   places.assign(points.size(), Place());
   if (points.empty()) return;
-  const Array<std::int32_t> tets = find_tets(mesh, points, leaf, job);
+  const Array<std::int32_t> tets = find_tets(mesh, points, solid, leaf, job);
   job.parallel.for_blocks(points.size(), points_in_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; i++) {
       places[i].tet = tets[i];
@@ -155,10 +161,16 @@ void locate(const MeshView &mesh, Span<const Triangle> boundary, Span<const Vec3
     job.poll(0.5 + 0.4 * double(end) / double(points.size()));
   });
   if (std::all_of(places.begin(), places.end(), [](const Place &place) { return place.tet >= 0; })) return;
-  const TriangleTree nearest(mesh.points, boundary, job);
+  const TriangleTree tree(mesh.points, boundary, job);
+  const auto nearest_to = [&](std::size_t i) {
+    if (solid.empty()) return tree.nearest(points[i]);
+    return tree.nearest_among(points[i], [&](std::int32_t t) {
+      return may_be_one(solid[i], solid_of(mesh.solid, boundary[std::size_t(t)]));
+    });
+  };
   job.parallel.for_blocks(points.size(), points_in_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; i++)
-      if (places[i].tet < 0) find_on_boundary(nearest, points[i], places[i]);
+      if (places[i].tet < 0) find_on_boundary(nearest_to(i), places[i]);
     job.poll(0.9);
   });
 }

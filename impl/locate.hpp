@@ -16,9 +16,10 @@ struct Place {
   std::array<double, 4> weights{};
 };
 
-/// places[i]: of points[i]. Of several tets that hold a point (within rounding) the one that holds it best, then the
-/// lowest. At most `leaf` tets go down the tree of the points together.
-void locate(const MeshView &mesh, Span<const Triangle> boundary, Span<const Vec3> points, std::int64_t leaf, Job &job,
-            Array<Place> &places);
+/// places[i]: of points[i]; in its solid, solid[i], where the mesh says of several, else solid is empty. Of several
+/// tets that hold a point (within rounding) the one that holds it best, then the lowest. At most `leaf` tets go down
+/// the tree of the points together.
+void locate(const MeshView &mesh, Span<const Triangle> boundary, Span<const Vec3> points,
+            Span<const std::int32_t> solid, std::int64_t leaf, Job &job, Array<Place> &places);
 
 }  // namespace tetlod

@@ -7,6 +7,7 @@
 #include "kd_tree.hpp"
 #include "prepare.hpp"
 #include "random_place.hpp"
+#include "solids.hpp"
 #include "whole_arrays.hpp"
 
 namespace tetlod {
@@ -36,11 +37,13 @@ class Field {
     tree_.build(boxes_of(mesh.tets.size(), job, box), 4, job);
   }
 
-  bool value_at(const Vec3 &p, double &value) const {
+  /// Of a point of that solid, where the mesh says of several.
+  bool value_at(const Vec3 &p, std::int32_t solid, double &value) const {
     double best = -out_by_rounding;
     bool found = false;
     tree_.any_overlap({p, p}, [&](std::int32_t item) {
       const Tet &t = mesh_.tets[std::size_t(item)];
+      if (!mesh_.solid.empty() && !may_be_one(solid, solid_of(mesh_.solid, t))) return false;
       double w[4];
       if (!barycentric(p, mesh_.points[std::size_t(t[0])], mesh_.points[std::size_t(t[1])],
                        mesh_.points[std::size_t(t[2])], mesh_.points[std::size_t(t[3])], w))
@@ -67,9 +70,9 @@ struct Tally {
   std::int64_t inside = 0, outside = 0;
 
   /// The error in units, each value by itself: their difference may be more than a double holds.
-  void add(const Field &field, const Vec3 &p, double original, double unit) {
+  void add(const Field &field, const Vec3 &p, std::int32_t solid, double original, double unit) {
     double value;
-    if (!field.value_at(p, value)) {
+    if (!field.value_at(p, solid, value)) {
       outside++;
       return;
     }
@@ -107,7 +110,8 @@ void add_sample(const MeshView &mesh, std::size_t tet, std::uint64_t key, const 
   random_weights(key, weights);
   Vec3 p(0);
   for (std::size_t k = 0; k < 4; k++) p += weights[k] * mesh.points[std::size_t(mesh.tets[tet][k])];
-  tally.add(field, p, value_in(mesh.scalars, mesh.fields, mesh.tets[tet], weights), unit);
+  const std::int32_t solid = mesh.solid.empty() ? -1 : solid_of(mesh.solid, mesh.tets[tet]);
+  tally.add(field, p, solid, value_in(mesh.scalars, mesh.fields, mesh.tets[tet], weights), unit);
 }
 
 }  // namespace
@@ -119,7 +123,8 @@ FieldError measure_error(const MeshView &original, double range, const TetMesh &
   Array<std::uint8_t> room(&job.memory);
   const Span<const std::uint8_t> used = used_points(original, job, room);
   const Tally at_vertices = tally_blocks(original.points.size(), job, 0, [&](std::size_t v, Tally &tally) {
-    if (used[v]) tally.add(field, original.points[v], original.scalars[v * original.fields], unit);
+    const std::int32_t solid = original.solid.empty() ? -1 : original.solid[v];
+    if (used[v]) tally.add(field, original.points[v], solid, original.scalars[v * original.fields], unit);
   });
   const auto samples = std::uint64_t(samples_per_tet);
   const std::uint64_t first = (seed << 40) ^ (seed >> 24) * 0x9e3779b97f4a7c15u;  // seeds do not share samples
@@ -139,6 +144,9 @@ FieldError measure_error(const Input &input, const Options &options, const TetMe
     prepare_with_boundary(input, options, job, original, boundary);
   }
   job.enter(Stage::values);
+  Array<std::int32_t> solid(&job.memory);
+  if (!result.solid.empty()) solid = solids_of_vertices(original.view, job);
+  original.view.solid = solid;
   const auto measure = [&](const TetMesh &mesh) {
     return measure_error(original.view, original.scalar_max - original.scalar_min, mesh, samples_per_tet,
                          std::uint64_t(options.seed), job);
@@ -147,6 +155,7 @@ FieldError measure_error(const Input &input, const Options &options, const TetMe
   TetMesh scaled(job.memory);
   scaled.scalars = result.scalars;
   scaled.tets = result.tets;
+  scaled.solid = result.solid;
   for (const Vec3 &p : result.points) scaled.points.push_back(times_power_of_two(p, -original.exponent));
   return measure(scaled);
 }

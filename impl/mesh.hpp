@@ -88,12 +88,25 @@ struct Surface {
 
 /// A simplified mesh: every tet positive, boundary vertices first, then samples, then Steiner points.
 struct TetMesh {
-  explicit TetMesh(Memory &memory) : points(&memory), scalars(&memory), tets(&memory), boundary(&memory) {}
+  explicit TetMesh(Memory &memory)
+      : points(&memory), scalars(&memory), tets(&memory), boundary(&memory), solid(&memory) {}
   Array<Vec3> points;
   Array<double> scalars;  ///< one a point; while it is being made, one of each field that steers
   Array<Tet> tets;
-  Array<Triangle> boundary;  ///< faces used once, outward
+  Array<Triangle> boundary;   ///< faces used once, outward
+  Array<std::int32_t> solid;  ///< of each point, the original's that it is of, where MeshView::solid says of several
 };
+
+/// Of a tet or a triangle, by its corners; -1: not known.
+template <class Corners>
+std::int32_t solid_of(Span<const std::int32_t> of_points, const Corners &corners) {
+  std::int32_t solid = -1;
+  for (const std::int32_t v : corners) solid = std::max(solid, of_points[std::size_t(v)]);
+  return solid;
+}
+
+/// Two are the same, or one of them is not known.
+inline bool may_be_one(std::int32_t a, std::int32_t b) { return a < 0 || b < 0 || a == b; }
 
 struct Box {
   Vec3 low{std::numeric_limits<double>::infinity()};

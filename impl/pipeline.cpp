@@ -275,8 +275,7 @@ class Pipeline : private Remeshing {
     RefineReport refined(job_.memory);
     MeshView original = original_.view;
     if (collapsed && in_contact_) original.solid = prepared_.solids(job_);
-    const Array<std::int32_t> solid = solids_of_points(original.solid);
-    options.solid = solid;
+    mesh_.solid = solids_of_points(original.solid);
     // A bound is looked for all the same: the sides of a slit may be nearer than weights are rounded by.
     if (bound > 0 || !is_original) refined = tetlod::refine(original, options, job_, mesh_);
     describe_refinement(refined, original_, report_);
@@ -306,7 +305,8 @@ class Pipeline : private Remeshing {
   void carry() {
     const StageTimer timer(Stage::values, job_, report_);
     tree_.reset();  // the memory is wanted
-    carry_fields(input_, options_, original_, boundary_, job_, result_);
+    const Span<const std::int32_t> solids = mesh_.solid.empty() ? Span<const std::int32_t>() : prepared_.solids(job_);
+    carry_fields(input_, options_, original_, solids, boundary_, job_, result_);
     split_fields(input_, job_, result_);
   }
 

@@ -12,6 +12,7 @@
 #include "move_vertices.hpp"
 #include "place_probes.hpp"
 #include "remove_vertices.hpp"
+#include "solids.hpp"
 #include "sort_by_place.hpp"
 #include "surface_distance.hpp"
 
@@ -41,7 +42,7 @@ class Refinement {
     sort_by_place(mesh_.points, mesh_.tets, job);
     first_inserted_ = mesh_.points.size();
     mesh_.kept.assign(options.kept.begin(), options.kept.end());
-    mesh_.solid.assign(options.solid.begin(), options.solid.end());
+    mesh_.solid = std::move(mesh.solid);
     mesh_.kept.resize(mesh_.points.size(), 0);
     mesh_.connect(job);
     if (options.max_deviation > 0)
@@ -158,8 +159,14 @@ class Refinement {
   /// From the original's boundary.
   double deviation_at(const Vec3 &p) const { return options_.boundary->get(job_).nearest(p).distance; }
 
+  std::int32_t solid_of_point(std::size_t v, const SolidsOfTets &solids) const {
+    return v < mesh_.solid.size() ? mesh_.solid[v] : solids.of(mesh_.tet_of[v]);
+  }
+
   void write() {
     Array<std::int32_t> number(mesh_.points.size(), -1, &job_.memory);
+    const SolidsOfTets solids(mesh_, original_.solid, job_);
+    out_.solid.clear();
     out_.points.clear();
     out_.scalars.clear();
     out_.tets.clear();
@@ -170,6 +177,7 @@ class Refinement {
         number[v] = std::int32_t(out_.points.size());
         out_.points.push_back(mesh_.points[v]);
         out_.scalars.insert(out_.scalars.end(), mesh_.values[v].begin(), mesh_.values[v].end());
+        if (solids.are_several()) out_.solid.push_back(solid_of_point(v, solids));
       }
     for (std::size_t t = 0; t < mesh_.tets.size(); t++) {
       job_.poll_at(t, 1);

@@ -15,7 +15,6 @@ struct RefineOptions {
   int rounds = 0;                    ///< that also remove and insert vertices, after one pass that moves and flips
   double bound = 0;                  ///< of the error at every original vertex, absolute; 0: none
   Span<const std::uint8_t> kept;     ///< points that keep place and value, and the faces among them; empty: none
-  Span<const std::int32_t> solid;    ///< of each point, as MeshView::solid; empty where that is
   TreeOnDemand *boundary = nullptr;  ///< of the original; must not be null
   double max_deviation = 0;          ///< of a new vertex of the boundary from the original's; 0: no limit
 };

@@ -17,10 +17,10 @@ class SolidsOfTets {
   bool are_several() const { return !of_vertices_.empty(); }
   /// Whether it became of the solid of the original's vertex, or one of the two is not known.
   bool may_hold(std::int32_t t, std::int32_t vertex) const {
-    if (!are_several()) return true;
-    const std::int32_t own = solid_[std::size_t(t)], solid = of_vertices_[std::size_t(vertex)];
-    return solid < 0 || own < 0 || own == solid;
+    return !are_several() || may_be_one(of(t), of_vertices_[std::size_t(vertex)]);
   }
+  /// -1: not known.
+  std::int32_t of(std::int32_t t) const { return solid_[std::size_t(t)]; }
 
  private:
   Span<const std::int32_t> of_vertices_;

@@ -22,10 +22,10 @@ void write_entry(Tet ids, std::array<double, 4> weights, std::size_t i, Stencil 
 
 }  // namespace
 
-void find_stencils(const MeshView &mesh, Span<const Triangle> boundary, Span<const Vec3> points, std::int64_t leaf,
-                   Job &job, Stencil &stencil) {
+void find_stencils(const MeshView &mesh, Span<const Triangle> boundary, Span<const Vec3> points,
+                   Span<const std::int32_t> solid, std::int64_t leaf, Job &job, Stencil &stencil) {
   Array<Place> places(&job.memory);
-  locate(mesh, boundary, points, leaf, job, places);
+  locate(mesh, boundary, points, solid, leaf, job, places);
   grow(stencil.ids, points.size(), job);
   grow(stencil.weights, points.size(), job);
   for_each(points.size(), job, [&](std::size_t i) {

@@ -17,8 +17,8 @@ struct Stencil {
 };
 
 /// The vertices of the tet that holds a point, or of the triangle of `boundary` that is nearest to one outside of
-/// every tet: three weights and a 0. `leaf`: as locate() has it.
-void find_stencils(const MeshView &mesh, Span<const Triangle> boundary, Span<const Vec3> points, std::int64_t leaf,
-                   Job &job, Stencil &stencil);
+/// every tet: three weights and a 0. solid, `leaf`: as locate() has them.
+void find_stencils(const MeshView &mesh, Span<const Triangle> boundary, Span<const Vec3> points,
+                   Span<const std::int32_t> solid, std::int64_t leaf, Job &job, Stencil &stencil);
 
 }  // namespace tetlod

@@ -1,6 +1,7 @@
 // Solids in contact: each is simplified for itself.
 #include <limits>
 #include <map>
+#include <set>
 
 #include "disjoint_sets.hpp"
 #include "surface_topology.hpp"
@@ -118,6 +119,36 @@ TEST_F(Assemblies, PartsThatTouchAreSimplified) {
       EXPECT_LT(report().max_deviation, 0.01) << ratio << ' ' << effort;
       EXPECT_EQ(report().remesh_attempts, 0);
     }
+}
+
+/// Each part has its own value and number, which no place that two have in common mixes.
+TEST_F(Assemblies, FieldsAndErrorsAreThoseOfTheOwnPart) {
+  start_with_bricks();
+  std::vector<double> of_points, of_tets;
+  for (std::size_t i = 0; i < parts.size(); i++) {
+    of_points.insert(of_points.end(), parts[i].points.size(), double(i));
+    of_tets.insert(of_tets.end(), parts[i].tets.size(), double(i));
+  }
+  for (const bool steers : {false, true}) {
+    if (steers) assembly.scalars = of_points;
+    Input input = input_of(assembly);
+    const auto ride_along = [&](const char *name, Association association, const std::vector<double> &values) {
+      input.fields.push_back({name, association, strided(values.data(), values.size(), 1, 1, ElementType::float64)});
+    };
+    ride_along("part of points", Association::point, of_points);
+    ride_along("part of tets", Association::cell, of_tets);
+    options.target_ratio = 0.1;
+    result = Result(host.memory);
+    run(input, options, worker, host.job, result);
+    const auto &at_points = result.fields[0].values, &in_tets = result.fields[1].values;
+    for (std::size_t t = 0; t < mesh().tets.size(); t++)
+      for (const std::int32_t v : mesh().tets[t]) EXPECT_EQ(at_points[std::size_t(v)], in_tets[t]);
+    EXPECT_EQ(std::set<double>(in_tets.begin(), in_tets.end()).size(), parts.size());
+    if (!steers) continue;
+    const FieldError error = measure_error(input, options, mesh(), 1, host.job);
+    EXPECT_LT(error.max, 1e-12);
+    EXPECT_LT(error.max_inner, 1e-12);
+  }
 }
 
 /// Where two have a place in common, that of the one's vertices in the one, though the other is coarser there.

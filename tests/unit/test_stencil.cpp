@@ -35,7 +35,7 @@ class Stencils : public testing::Test {
     Boundary boundary(with.memory);
     extract_boundary(mesh.view(), with.job, boundary);
     Stencil stencil(with.memory);
-    find_stencils(mesh.view(), boundary.triangles, {points.data(), points.size()}, leaf, with.job, stencil);
+    find_stencils(mesh.view(), boundary.triangles, {points.data(), points.size()}, {}, leaf, with.job, stencil);
     EXPECT_EQ(stencil.ids.size(), points.size());
     EXPECT_EQ(stencil.weights.size(), points.size());
     return stencil;

@@ -43,7 +43,7 @@ class LocateStage {
   Cost in_original(const Mesh &result) {
     tetlod::Array<tetlod::Place> places(&stages_.memory);
     const Stopwatch watch;
-    tetlod::locate(mesh_, boundary_.triangles, view_of(result).points, kTetLeaf, stages_.job, places);
+    tetlod::locate(mesh_, boundary_.triangles, view_of(result).points, {}, kTetLeaf, stages_.job, places);
     return watch.cost();
   }
 
