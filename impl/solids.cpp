@@ -39,12 +39,15 @@ SolidsOfTets::SolidsOfTets(const TetComplex &mesh, Span<const std::int32_t> of_v
   const std::size_t tets = mesh.tets.size();
   solid_.resize(tets, -1);
   DisjointSets joined(tets, job.memory);
-  for (std::size_t t = 0; t < tets; t++)
+  for (std::size_t t = 0; t < tets; t++) {
+    job.poll_at(t, 0);
     for (const std::int32_t next : mesh.neighbours[t])
       if (mesh.alive(std::int32_t(t)) && next >= 0) joined.join(std::int32_t(t), next);
+  }
   const auto solid = [&](std::size_t t) -> std::int32_t & {
     return solid_[std::size_t(joined.lowest(std::int32_t(t)))];
   };
+  job.poll(0);
   for (std::size_t t = 0; t < tets; t++)
     for (const std::int32_t v : mesh.tets[t])
       if (v >= 0 && std::size_t(v) < mesh.solid.size()) solid(t) = std::max(solid(t), mesh.solid[std::size_t(v)]);
