@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "came_from.hpp"
+#include "first_culprit.hpp"
 #include "geometry.hpp"
 #include "predicates.hpp"
 #include "surface_distance.hpp"
@@ -64,63 +65,64 @@ class ContactFinder {
 
   Contacts find() const {
     const Array<Meeting> meetings = find_meetings();
-    const Array<std::uint8_t> covered = find_covered(meetings);
-    Array<std::uint64_t> meet(&job_.memory), overlap(&job_.memory);
-    for (const Meeting &m : meetings) {
-      const bool overlaps = m.reach > most_reach * diagonal_ || covered[std::size_t(m.a)] || covered[std::size_t(m.b)];
-      (overlaps ? overlap : meet).push_back(Contacts::pair_of(component(m.a), component(m.b)));
-    }
-    std::sort(overlap.begin(), overlap.end());
-    const auto overlaps = [&](std::uint64_t pair) { return std::binary_search(overlap.begin(), overlap.end(), pair); };
-    meet.erase(std::remove_if(meet.begin(), meet.end(), overlaps), meet.end());
-    return Contacts(std::move(meet));
+    if (meetings.empty() || any_covered(meetings)) return Contacts(job_.memory);
+    Array<std::uint64_t> pairs(&job_.memory);
+    for (const Meeting &m : meetings) pairs.push_back(Contacts::pair_of(component(m.a), component(m.b)));
+    return Contacts(std::move(pairs));
   }
 
  private:
   std::int32_t component(std::int32_t t) const { return topology_.component[std::size_t(t)]; }
   TriangleInSpace triangle(std::int32_t t) const { return {surface_.points, surface_.triangles[std::size_t(t)]}; }
 
-  /// Appends it to those that meet, if it does.
-  void look_at(std::int32_t a, std::int32_t b, Array<Meeting> &meetings) const {
+  /// False where they overlap; else, if they meet, it is appended to those that do.
+  bool look_at(std::int32_t a, std::int32_t b, Array<Meeting> &meetings) const {
     const TriangleInSpace p = triangle(a), q = triangle(b);
     const Vec3 first[3] = {p.a, p.b, p.c}, second[3] = {q.a, q.b, q.c};
-    if (!triangles_apart(first, surface_.triangles[std::size_t(a)], second, surface_.triangles[std::size_t(b)]))
-      meetings.push_back({a, b, reach_of(first, second)});
+    if (triangles_apart(first, surface_.triangles[std::size_t(a)], second, surface_.triangles[std::size_t(b)]))
+      return true;
+    const double reach = reach_of(first, second);
+    if (reach <= most_reach * diagonal_) meetings.push_back({a, b, reach});
+    return reach <= most_reach * diagonal_;
   }
 
-  /// Of different components.
+  /// Of different components; none where two overlap.
   Array<Meeting> find_meetings() const {
     const std::size_t count = surface_.triangles.size();
     Array<Array<Meeting>> of_block(count / block + 1, &job_.memory);
+    FirstCulprit overlap;
     job_.parallel.for_blocks(count, block, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t t = begin; t < end; t++) {
+      for (std::size_t t = begin; t < end && !overlap.any(); t++) {
         if (t % 8 == 0) job_.poll(double(t) / double(count));
         const auto a = std::int32_t(t);
         tree_.for_near(a, [&](std::int32_t b) {
-          if (b > a && component(a) != component(b)) look_at(a, b, of_block[begin / block]);
+          if (b > a && component(a) != component(b) && !look_at(a, b, of_block[begin / block])) overlap.report(t);
         });
       }
     });
     Array<Meeting> all(&job_.memory);
+    if (overlap.any()) return all;
     for (const Array<Meeting> &some : of_block) all.insert(all.end(), some.begin(), some.end());
     return all;
   }
 
-  /// Of each triangle that meets another: whether it lies in another solid's material.
-  Array<std::uint8_t> find_covered(const Array<Meeting> &meetings) const {
-    Array<double> reach(std::size_t(topology_.components), least_reach * diagonal_, &job_.memory);
-    Array<std::uint8_t> meets(surface_.triangles.size(), 0, &job_.memory), covered = meets;
+  /// Whether a triangle that meets another lies in another solid's material. Solids that do not just touch may be
+  /// deeper in each other than their triangles reach.
+  bool any_covered(const Array<Meeting> &meetings) const {
+    Array<double> behind(std::size_t(topology_.components), least_reach, &job_.memory);
+    Array<std::uint8_t> meets(surface_.triangles.size(), 0, &job_.memory);
     for (const Meeting &m : meetings)
       for (const std::int32_t t : {m.a, m.b}) {
-        double &most = reach[std::size_t(component(t))];
-        if (m.reach <= most_reach * diagonal_) most = std::max(most, m.reach);
+        if (m.reach > least_reach * diagonal_) behind[std::size_t(component(t))] = most_reach;
         meets[std::size_t(t)] = 1;
       }
+    FirstCulprit covered;
     for_each(meets.size(), job_, [&](std::size_t t) {
       const auto triangle = std::int32_t(t);
-      covered[t] = meets[t] && !has_material_once(triangle, reach[std::size_t(component(triangle))]);
+      if (!meets[t] || covered.any()) return;
+      if (!has_material_once(triangle, behind[std::size_t(component(triangle))] * diagonal_)) covered.report(t);
     });
-    return covered;
+    return covered.any();
   }
 
   /// Just behind it, farther than solids that touch reach into each other.

@@ -30,7 +30,8 @@ class Contacts {
 };
 
 /// Those whose triangles meet, but nowhere reach into each other by more than a thousandth of the diagonal, along the
-/// axis along which they do so least; and where they meet, there is material once, of one solid, behind each.
+/// axis along which they do so least; and where they meet, there is material once, of one solid, behind each. None
+/// where any other two overlap.
 Contacts find_contacts(const Surface &surface, const SurfaceTopology &topology, TreeOnDemand &tree, Job &job);
 
 /// Which triangles of a surface, or vertices, may meet: of components in contact.

@@ -105,7 +105,7 @@ struct Lowering {
 };
 
 /// Takes the boundary back to where it is farthest off, if a least distance is given from there on, else outward before
-/// that, where the outcome is sound.
+/// that, where the outcome is sound. Not where solids are in contact, as what is nearest may be another's.
 bool lower(const OriginalSolid &original, const SolidOptions &options, const Lowering &how, Job &job,
            CoarseSolid &coarse) {
   CoarseSolid lowered(job.memory);
@@ -119,9 +119,9 @@ bool lower(const OriginalSolid &original, const SolidOptions &options, const Low
   lowered.deviation = lower_deviation(by, how.least, how.most, job, lowered.mesh, lowered.origin);
   TreeOnDemand tree;
   check(original, options, job, lowered, tree);
-  const bool is_sound = lowered.is_sound;
-  if (is_sound) coarse = std::move(lowered);
-  return is_sound;
+  const bool is_taken = lowered.is_sound && !lowered.in_contact;
+  if (is_taken) coarse = std::move(lowered);
+  return is_taken;
 }
 
 /// Where it crosses itself else; that takes longer.
@@ -141,12 +141,14 @@ CoarseSolid decimate_and_check(const OriginalSolid &original, const SolidOptions
   if (lowered > 0 && lower(original, options, {0, lowered}, job, coarse)) return coarse;
   TreeOnDemand tree;
   check(original, options, job, coarse, tree);
-  if (!coarse.is_sound || (lowered > 0 && lower_guarded(original, options, {0, lowered}, job, coarse))) return coarse;
+  const bool may_lower = coarse.is_sound && !coarse.in_contact;
+  if (!coarse.is_sound || (lowered > 0 && may_lower && lower_guarded(original, options, {0, lowered}, job, coarse)))
+    return coarse;
   coarse.deviation =
       largest_deviation(original.surface, original.tree, coarse.surface, std::move(tree), options.measured_at, job);
   const double far = far_off * box_of(original.surface.points).diagonal();
   const Lowering back{far / 2, std::int64_t(coarse.mesh.tets.size())};
-  if (lowered == 0 && options.max_deviation <= 0 && coarse.deviation > far)
+  if (lowered == 0 && may_lower && options.max_deviation <= 0 && coarse.deviation > far)
     lower(original, options, back, job, coarse) || lower_guarded(original, options, back, job, coarse);
   return coarse;
 }
@@ -154,16 +156,20 @@ CoarseSolid decimate_and_check(const OriginalSolid &original, const SolidOptions
 /// decimate_and_check, with more care than options say where that has to be.
 CoarseSolid decimate_with_care(const OriginalSolid &original, SolidOptions options, std::int64_t lowered,
                                SolidHistory &history, Job &job) {
+  Array<std::int32_t> component(&job.memory);
+  const auto let_contacts_meet = [&] {
+    const Contacts &contacts = original.find_contacts(job);
+    if (contacts.empty()) return;
+    component = components_of_vertices(original.surface, original.topology, original.mesh.points.size(), job.memory);
+    options.may_meet = {&contacts, component};
+  };
+  if (options.careful_from > 0) let_contacts_meet();
   CoarseSolid best = decimate_and_check(original, options, lowered, history, job);
   const std::int64_t reused = best.reused;  // of other runs
   const auto all = std::int64_t(original.mesh.tets.size()), few = late * std::int64_t(best.mesh.tets.size());
   const bool can_reach_size = !misses_size(options, best.mesh);
   bool again = best.wants_care && options.careful_from < all;
-  Array<std::int32_t> component(&job.memory);
-  if (again && !original.find_contacts(job).empty()) {
-    component = components_of_vertices(original.surface, original.topology, original.mesh.points.size(), job.memory);
-    options.may_meet = {&original.find_contacts(job), component};
-  }
+  if (again && options.careful_from == 0) let_contacts_meet();
   for (options.careful_from = options.careful_from > 0 ? all : std::min(few, all); again; options.careful_from = all) {
     if (job.log) job.log(1, ("edges collapse again, with more care: " + best.wrong).c_str());
     if (!best.is_sound) best = CoarseSolid(job.memory);

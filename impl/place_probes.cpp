@@ -104,8 +104,9 @@ class InnerShares {
   double per_tet_, by_changes_, all_changes_ = 0;  // 0, too, where the sum, of the largest doubles, is no number
 };
 
+/// solid: of each, where solids are in contact.
 template <std::size_t m>
-void add_inner(const MeshView &original, double most, Job &job, Array<Probe<m>> &probes) {
+void add_inner(const MeshView &original, double most, Job &job, Array<Probe<m>> &probes, Array<std::int32_t> &solid) {
   const std::size_t tets = original.tets.size();
   const Array<double> changes =
       parts_of(tets, 0.0, job, [&](double &sum, std::size_t t) { sum += change_of<m>(original, original.tets[t]); });
@@ -115,6 +116,7 @@ void add_inner(const MeshView &original, double most, Job &job, Array<Probe<m>> 
     due_before.push_back(due_before.back() + shares.due(std::min(stretch, tets - i * stretch), changes[i]));
   const std::size_t before = probes.size();
   grow(probes, before + taken(due_before.back()), job);
+  if (!original.solid.empty()) grow(solid, probes.size(), job, -1);
   job.parallel.for_blocks(tets, stretch, [&](std::size_t begin, std::size_t end) {
     const double due = due_before[begin / stretch];
     std::size_t next = taken(due);
@@ -122,7 +124,10 @@ void add_inner(const MeshView &original, double most, Job &job, Array<Probe<m>> 
     for (std::size_t t = begin; t < end; t++) {
       change += change_of<m>(original, original.tets[t]);
       const std::size_t last = taken(due + shares.due(t + 1 - begin, change));
-      for (; next < last; next++) probes[before + next] = probe_inside<m>(original, original.tets[t], before + next);
+      for (; next < last; next++) {
+        probes[before + next] = probe_inside<m>(original, original.tets[t], before + next);
+        if (!solid.empty()) solid[before + next] = solid_of(original.solid, original.tets[t]);
+      }
     }
     job.poll(0);
   });
@@ -167,22 +172,22 @@ void project(const SolidsOfTets &solids, Job &job, Array<std::int32_t> &home, Ad
   });
 }
 
-/// Those of vertices become of their own solids.
+/// They become of the probes' own solids.
 template <std::size_t m>
-void keep_to_solids(const TetLocator &locator, const SolidsOfTets &solids, Job &job, Array<std::int32_t> &home,
-                    AdaptiveMesh<m> &mesh) {
-  for (std::size_t i = 0; i < mesh.vertex_probes; i++) {
+void keep_to_solids(const TetLocator &locator, const SolidsOfTets &solids, Span<const std::int32_t> solid, Job &job,
+                    Array<std::int32_t> &home, AdaptiveMesh<m> &mesh) {
+  for (std::size_t i = 0; i < home.size(); i++) {
     job.poll_at(i, 0.2);
-    const std::int32_t vertex = mesh.vertex_of_probe[i];
-    const auto may_hold = [&](std::int32_t t) { return solids.may_hold(t, vertex); };
+    const auto may_hold = [&](std::int32_t t) { return may_be_one(solids.of(t), solid[i]); };
     if (home[i] < 0 || may_hold(home[i])) continue;
     home[i] = locator.find_among(mesh.probes[i].point, may_hold);
-    if (home[i] < 0) mesh.in_no_tet.push_back(vertex);
+    if (home[i] < 0 && i < mesh.vertex_probes) mesh.in_no_tet.push_back(mesh.vertex_of_probe[i]);
   }
 }
 
 template <std::size_t m>
-Array<std::int32_t> find_homes(const SolidsOfTets &solids, Job &job, AdaptiveMesh<m> &mesh) {
+Array<std::int32_t> find_homes(const SolidsOfTets &solids, Span<const std::int32_t> solid, Job &job,
+                               AdaptiveMesh<m> &mesh) {
   Array<std::int32_t> order(&job.memory), home(mesh.probes.size(), -1, &job.memory);
   order.reserve(mesh.probes.size());
   const auto append = [&](std::size_t first, std::size_t end) {  // so that walks are short
@@ -206,7 +211,7 @@ Array<std::int32_t> find_homes(const SolidsOfTets &solids, Job &job, AdaptiveMes
   mesh.in_no_tet.clear();
   for (const Array<std::int32_t> &some : outside_of_block)
     mesh.in_no_tet.insert(mesh.in_no_tet.end(), some.begin(), some.end());
-  if (solids.are_several()) keep_to_solids(locator, solids, job, home, mesh);
+  if (solids.are_several()) keep_to_solids(locator, solids, solid, job, home, mesh);
   return home;
 }
 
@@ -260,9 +265,12 @@ void place_probes(const MeshView &original, const ProbeOptions &options, Job &jo
   add_vertices(original, options.most_vertices, job, mesh);
   mesh.vertex_probes = mesh.probes.size();
   mesh.vertex_weight = options.vertex_weight;
-  if (options.most_inner > 0) add_inner(original, options.most_inner, job, mesh.probes);
+  Array<std::int32_t> solid(&job.memory);  // of each probe, where solids are in contact
+  if (!original.solid.empty())
+    for (const std::int32_t v : mesh.vertex_of_probe) solid.push_back(original.solid[std::size_t(v)]);
+  if (options.most_inner > 0) add_inner(original, options.most_inner, job, mesh.probes, solid);
   const SolidsOfTets solids(mesh, original.solid, job);
-  Array<std::int32_t> home = find_homes(solids, job, mesh);
+  Array<std::int32_t> home = find_homes(solids, solid, job, mesh);
   if (options.project_outside) project(solids, job, home, mesh);
   const auto count_homeless = [&](std::size_t end) {
     return std::size_t(std::count(home.begin(), home.begin() + std::ptrdiff_t(end), -1));

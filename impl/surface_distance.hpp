@@ -24,14 +24,14 @@ class TriangleTree {
   TriangleTree(Span<const Vec3> points, Span<const Triangle> triangles, Job &job, std::int64_t leaf = 8);
   /// usual2: few points are farther than its root. The less it is, the sooner the others' are found.
   NearestPoint nearest(const Vec3 &p, double usual2 = std::numeric_limits<double>::infinity()) const;
-  /// Of the triangles that counts() is true of.
+  /// Of the triangles that counts() is true of, or, where it is of none, of all.
   template <class Counts>
   NearestPoint nearest_among(const Vec3 &p, const Counts &counts) const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     double distance2 = infinity;
     const auto distance2_to = [&](std::int32_t t) { return counts(t) ? triangle(t).distance2_to(p) : infinity; };
     const std::int32_t t = tree_.nearest(p, distance2, distance2_to);
-    if (t < 0) return {-1, Vec3(0), infinity};
+    if (t < 0 || !(distance2 < infinity)) return nearest(p);
     return {t, triangle(t).weights_nearest_to(p), std::sqrt(distance2)};
   }
   /// Whether it is no farther than the root of `most2`: sooner than what is nearest. near: a triangle that may be no

@@ -267,7 +267,10 @@ constexpr Rule rules[] = {
 };
 
 /// TetGen takes none.
-bool takes_contacts(const Options &options) { return !as_published(options) && options.on_overlap == policy_repair; }
+bool takes_contacts(const Options &options) {
+  const bool needs_it = as_published(options) || (options.clean_edges > 0 && options.remesh);
+  return !needs_it && options.on_overlap == policy_repair;
+}
 
 }  // namespace
 

@@ -215,6 +215,10 @@ TEST(Assemblies, AreTakenWhereTetGenIsNotNeeded) {
     expect(parts, TETLOD_OK);
     expect(overlap, TETLOD_ERR_MESH_INTERSECTING);
   }
+  ASSERT_EQ(tetlod_set_real(context.get(), TETLOD_OPT_CLEAN_EDGES, 0.001), TETLOD_OK);
+  expect(parts, TETLOD_ERR_MESH_INTERSECTING);
+  ASSERT_EQ(tetlod_set_int(context.get(), TETLOD_OPT_REMESH, 0), TETLOD_OK);
+  expect(parts, TETLOD_OK);
   ASSERT_EQ(tetlod_set_int(context.get(), TETLOD_OPT_ON_OVERLAP, 0), TETLOD_OK);
   expect(parts, TETLOD_ERR_MESH_INTERSECTING);
 }

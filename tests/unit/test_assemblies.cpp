@@ -1,6 +1,7 @@
 // Solids in contact: each is simplified for itself.
 #include <limits>
 #include <map>
+#include <random>
 #include <set>
 
 #include "disjoint_sets.hpp"
@@ -32,6 +33,23 @@ class Assemblies : public WholeRun {
         const Vec3 low(i + 0.47 * (row % 2), 0.1 * row + 0.03 * i, 0.5 * row);
         add(5 + (row + i) % 3, low, low + Vec3(1, 1, 0.5));
       }
+  }
+
+  /// A plate on a block, with waves between them, which their meshes follow in steps of their own.
+  void start_with_waves(const Cell &lower, const Cell &upper, const Vec3 &wave) {
+    const auto height = [=](double x, double y) { return 0.5 + wave.z * std::sin(wave.x * x) * std::cos(wave.y * y); };
+    Mesh block = kuhn_solid(lower, [](const Cell &) { return true; }),
+         plate = kuhn_solid(upper, [](const Cell &) { return true; });
+    transform(block, [&](Vec3 p) {
+      p /= Vec3(lower[0], lower[1], lower[2]);
+      return Vec3(p.x, p.y, p.z * height(p.x, p.y));
+    });
+    transform(plate, [&](Vec3 p) {
+      p = Vec3(0.05, 0.05, 0) + p * Vec3(0.9, 0.9, 1) / Vec3(upper[0], upper[1], upper[2]);
+      return Vec3(p.x, p.y, height(p.x, p.y) + p.z * (1 - height(p.x, p.y)));
+    });
+    add(std::move(block));
+    add(std::move(plate));
   }
 
   /// A ball on a plate, into which it reaches by that part of the diagonal, about.
@@ -148,6 +166,68 @@ TEST_F(Assemblies, FieldsAndErrorsAreThoseOfTheOwnPart) {
     const FieldError error = measure_error(input, options, mesh(), 1, host.job);
     EXPECT_LT(error.max, 1e-12);
     EXPECT_LT(error.max_inner, 1e-12);
+  }
+}
+
+/// Also where parts are in each other a little, and what is nearest on the boundary, or at a place inside, is
+/// another's.
+TEST_F(Assemblies, NoPartGetsAnothersValues) {
+  for (const auto &[n, other] : {std::pair(17, 15), {18, 23}, {30, 27}})
+    for (const auto effort : {effort_fast, effort_accurate}) {
+      assembly = {};
+      parts.clear();
+      start_with_waves({n, n, 6}, {other, other, 6}, Vec3(3.5, 3, 0.1));
+      for (std::size_t v = 0; v < assembly.points.size(); v++)
+        assembly.scalars[v] = v < parts[0].points.size() ? 0.1 * assembly.points[v].x : 1 - 0.1 * assembly.points[v].y;
+      std::vector<double> of_tets(parts[0].tets.size(), 0.0);
+      of_tets.resize(assembly.tets.size(), 1.0);
+      Input input = input_of(assembly);
+      input.fields.push_back(
+          {"part of tets", Association::cell, strided(of_tets.data(), of_tets.size(), 1, 1, ElementType::float64)});
+      options.effort = effort;
+      options.target_ratio = n == 30 ? 0.03 : n == 18 ? 0.14 : 0.09;
+      result = Result(host.memory);
+      run(input, options, worker, host.job, result);
+      const auto &part = result.fields[0].values;
+      for (std::size_t t = 0; t < mesh().tets.size(); t++)
+        for (const std::int32_t v : mesh().tets[t]) {
+          const double value = mesh().scalars[std::size_t(v)];
+          EXPECT_TRUE(part[t] == 0 ? value < 0.11 : value > 0.89) << n << ' ' << effort << ' ' << value;
+        }
+      EXPECT_LT(measure_error(input, options, mesh(), 1, host.job).max_inner, 0.05);
+    }
+}
+
+/// Deeper than any two triangles reach into each other.
+TEST_F(Assemblies, PartsMayBeInEachOtherBetweenTheirTriangles) {
+  options.effort = effort_fast;
+  options.target_ratio = 0.1;
+  for (const int n : {15, 20, 27}) {
+    assembly = {};
+    parts.clear();
+    start_with_waves({n, n, 4}, {3 * n / 2 + 1, 3 * n / 2 + 1, 2}, Vec3(3, 4, 0.08));
+    EXPECT_EQ(status(assembly), Status::ok) << n;
+  }
+}
+
+/// Each of them meets most others, of which no list is kept.
+TEST_F(Assemblies, ManyThatOverlapAreRefusedInLittleMemory) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> place(0, 0.3);
+  for (int i = 0; i < 400; i++) {
+    const Vec3 low(place(random), place(random), place(random));
+    add(1, low, low + Vec3(1));
+  }
+  options.target_ratio = 0.5;
+  options.remesh = false;
+  Memory memory({}, std::size_t(20) << 20);
+  Job job(memory, host.parallel);
+  Result refused(memory);
+  try {
+    run(input_of(assembly), options, worker, job, refused);
+    ADD_FAILURE();
+  } catch (const Error &error) {
+    EXPECT_EQ(error.status(), Status::mesh_intersecting) << error.what();
   }
 }
 
