@@ -63,17 +63,25 @@ struct CutTopology {
   std::int64_t euler, components, nonmanifold_edges, nonmanifold_points;
 };
 
-CutTopology cut_topology(const std::vector<Point> &points, const std::vector<Face> &faces) {
+/// A surface, cut apart where it touches itself, as the library has it.
+struct CutSurface {
+  CutSurface(const std::vector<Point> &points, const std::vector<Face> &faces) {
+    make_surface(points, faces, surface);
+    tetlod::find_topology(surface.points, surface.triangles, job, topology);
+  }
+
   tetlod::Memory memory;
-  const tetlod::Parallel alone(1);
-  tetlod::Job job(memory, alone);
-  tetlod::Surface surface(memory);
-  make_surface(points, faces, surface);
-  tetlod::SurfaceTopology topology(memory);
-  tetlod::find_topology(surface.points, surface.triangles, job, topology);
+  tetlod::Parallel alone{1};
+  tetlod::Job job{memory, alone};
+  tetlod::Surface surface{memory};
+  tetlod::SurfaceTopology topology{memory};
+};
+
+CutTopology cut_topology(const std::vector<Point> &points, const std::vector<Face> &faces) {
+  const CutSurface cut(points, faces);
   const auto triangles = std::int64_t(faces.size());
-  return {std::int64_t(topology.vertex_of.size()) - triangles / 2, topology.components, topology.nonmanifold_edges,
-          topology.nonmanifold_points};
+  return {std::int64_t(cut.topology.vertex_of.size()) - triangles / 2, cut.topology.components,
+          cut.topology.nonmanifold_edges, cut.topology.nonmanifold_points};
 }
 
 /// Two triangles that cross, or -1, -1.
@@ -89,28 +97,16 @@ std::pair<std::int32_t, std::int32_t> crossing_of(const std::vector<Point> &poin
 
 /// The faces of each component of the surface, cut apart where it touches itself.
 std::vector<std::vector<Face>> components_of(const std::vector<Point> &points, const std::vector<Face> &faces) {
-  tetlod::Memory memory;
-  const tetlod::Parallel alone(1);
-  tetlod::Job job(memory, alone);
-  tetlod::Surface surface(memory);
-  make_surface(points, faces, surface);
-  tetlod::SurfaceTopology topology(memory);
-  tetlod::find_topology(surface.points, surface.triangles, job, topology);
-  std::vector<std::vector<Face>> components(std::size_t(topology.components));
-  for (std::size_t t = 0; t < faces.size(); t++) components[std::size_t(topology.component[t])].push_back(faces[t]);
+  const CutSurface cut(points, faces);
+  std::vector<std::vector<Face>> components(std::size_t(cut.topology.components));
+  for (std::size_t t = 0; t < faces.size(); t++) components[std::size_t(cut.topology.component[t])].push_back(faces[t]);
   return components;
 }
 
 bool has_contacts(const std::vector<Point> &points, const std::vector<Face> &faces) {
-  tetlod::Memory memory;
-  const tetlod::Parallel alone(1);
-  tetlod::Job job(memory, alone);
-  tetlod::Surface surface(memory);
-  make_surface(points, faces, surface);
-  tetlod::SurfaceTopology topology(memory);
-  tetlod::find_topology(surface.points, surface.triangles, job, topology);
-  tetlod::TreeOnDemand tree(surface);
-  return !tetlod::find_contacts(surface, topology, tree, job).empty();
+  CutSurface cut(points, faces);
+  tetlod::TreeOnDemand tree(cut.surface);
+  return !tetlod::find_contacts(cut.surface, cut.topology, tree, cut.job).empty();
 }
 
 Point minus(const Point &a, const Point &b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }

@@ -76,7 +76,7 @@ class OutsideVertices {
   Array<double> errors_on(const BoundaryTree &boundary) const {
     Array<double> error(vertices_.size(), 0.0, &job_.memory);
     for_each(vertices_.size(), job_, [&](std::size_t k) {
-      const NearestPoint at = nearest_on(boundary, k);
+      const NearestPoint at = boundary.nearest(place(k), vertex(k), solids_);
       const Triangle &face = boundary.faces[std::size_t(at.triangle)];
       const double w[4] = {at.weights[0], at.weights[1], at.weights[2], 0};
       error[k] = error_in(k, {face[0], face[1], face[2], face[0]}, w);
@@ -112,13 +112,6 @@ class OutsideVertices {
   }
 
  private:
-  NearestPoint nearest_on(const BoundaryTree &boundary, std::size_t k) const {
-    if (!solids_.are_several()) return boundary.tree.nearest(place(k));
-    return boundary.tree.nearest_among(place(k), [&](std::int32_t face) {
-      return solids_.may_hold(boundary.tet_of_face[std::size_t(face)], vertex(k));
-    });
-  }
-
   const Vec3 &place(std::size_t k) const { return original_.points[std::size_t(vertices_[k])]; }
 
   double error_in(std::size_t k, const Tet &t, const double w[4]) const {

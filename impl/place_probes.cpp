@@ -156,12 +156,7 @@ void project(const SolidsOfTets &solids, Job &job, Array<std::int32_t> &home, Ad
   mesh.outside.assign(mesh.vertex_probes, 0);
   job.parallel.for_blocks(mesh.vertex_probes, block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; i++) {
-      const auto nearest_to = [&](const Vec3 &p) {
-        if (!solids.are_several()) return boundary.tree.nearest(p);
-        return boundary.tree.nearest_among(p, [&](std::int32_t face) {
-          return solids.may_hold(boundary.tet_of_face[std::size_t(face)], mesh.vertex_of_probe[i]);
-        });
-      };
+      const auto nearest_to = [&](const Vec3 &p) { return boundary.nearest(p, mesh.vertex_of_probe[i], solids); };
       const NearestPoint at = nearest_if_outside(mesh, home[i], mesh.probes[i].point, nearest_to);
       if (at.triangle < 0) continue;
       home[i] = boundary.tet_of_face[std::size_t(at.triangle)];
