@@ -204,7 +204,7 @@ typedef struct tetlod_mesh_report {
   tetlod_defect repeated;           /* tets with a vertex twice, also after merging */
   tetlod_defect nonfinite_points;   /* used points with a coordinate that is not finite */
   tetlod_defect nonfinite_values;   /* used points with a value that is not finite */
-  tetlod_defect coincident;         /* points that coincide with an earlier one (TETLOD_OPT_MERGE_TOLERANCE) */
+  tetlod_defect coincident;         /* points that become an earlier one (TETLOD_OPT_MERGE_TOLERANCE) */
   tetlod_defect flat;               /* tets without volume */
   tetlod_defect inverted;           /* tets with a negative determinant */
   tetlod_defect duplicate;          /* tets with the four vertices of an earlier one */
@@ -287,8 +287,8 @@ enum {
   TETLOD_OPT_SIGMA = 2,           /* real, "sigma" */
   TETLOD_OPT_LAMBDA = 3,          /* real, "lambda" */
   TETLOD_OPT_MIN_DISTANCE = 4,    /* real, "min-distance" */
-  TETLOD_OPT_MERGE_TOLERANCE = 5, /* real, "merge-tolerance": points this near, as a fraction of the bounding box
-                                     diagonal, become one; 0: only points with the same coordinates */
+  TETLOD_OPT_MERGE_TOLERANCE = 5, /* real, "merge-tolerance": points this near, as a fraction of the diagonal, become
+                                     one, but of solids that are in contact and share no face; 0: at the same place */
   TETLOD_OPT_CLEAN_EDGES = 6,     /* real, "clean-edges": boundary edges shorter than this fraction of the diagonal are
                                      collapsed before decimation [4, delta]; 0: off */
   TETLOD_OPT_BOUNDARY_LEAF = 7,   /* int, "boundary-leaf": triangles in a leaf of the culling tree [3.3], at most */

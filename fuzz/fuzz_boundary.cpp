@@ -30,6 +30,7 @@ tetlod::Options decode_options(Bytes &in) {
   options.sigma = in.one_in(2) ? in.fraction() : 0;
   options.lambda = in.one_in(4) ? 1e6 * in.fraction() : 0.1;
   if (in.one_in(4)) options.clean_edges = 0.1 * in.fraction();
+  if (in.one_in(2)) options.target_ratio = 0.1;  // parts may be in contact
   return options;
 }
 
@@ -181,7 +182,7 @@ void run_stages(Stage &stage, const Mesh &mesh, Bytes &in) {
   trace(mesh);
   const MeshInput holder(mesh);
   tetlod::Original original(stage.memory());
-  const Facts facts = facts_of(mesh, options.on_nonfinite == tetlod::policy_repair);
+  const Facts facts = facts_of(mesh, {options.on_nonfinite == tetlod::policy_repair, tetlod::takes_contacts(options)});
   const Status prepared =
       stage.call("prepare_original", {Status::mesh_empty, Status::mesh_index, Status::mesh_nonfinite},
                  [&] { tetlod::prepare_original(holder.input(), options, stage.job(), original); });

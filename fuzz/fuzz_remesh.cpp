@@ -31,7 +31,7 @@ Problem surface_of(const Mesh &mesh) {
   Problem problem;
   problem.sound = mesh.sound;
   std::vector<std::int64_t> number(mesh.points.size(), -1);
-  for (Face face : facts_of(mesh, true).boundary) {
+  for (Face face : facts_of(mesh, {}).boundary) {
     for (std::int64_t &v : face) {
       std::int64_t &known = number[std::size_t(v)];
       if (known < 0) {

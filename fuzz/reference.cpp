@@ -5,6 +5,7 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "predicates.hpp"
@@ -48,7 +49,7 @@ FaceUsers users_of(const std::vector<Corners> &tets, std::vector<bool> gone = {}
 
 class Inspection {
  public:
-  Inspection(const Mesh &mesh, bool drop_nonfinite) : mesh_(mesh), drop_nonfinite_(drop_nonfinite) {}
+  Inspection(const Mesh &mesh, const Repairs &repairs) : mesh_(mesh), repairs_(repairs) {}
 
   Facts inspect() {
     look_at_indices();
@@ -89,7 +90,7 @@ class Inspection {
         used_[v] = false;
       } else if (!std::isfinite(mesh_.values[v])) {
         facts_.nonfinite_values++;
-        if (drop_nonfinite_) used_[v] = false;
+        if (repairs_.drop_nonfinite) used_[v] = false;
       }
     }
   }
@@ -117,23 +118,61 @@ class Inspection {
     facts_.wide = most * 1e-90 > least;
   }
 
+  Point place(std::int64_t v) const {
+    Point p = at(v);
+    for (double &x : p) x += 0.0;  // -0 is 0
+    return p;
+  }
+
   void merge() {
-    std::map<Point, std::int64_t> first;
+    const auto has_all = [&](const Corners &t) {
+      return std::all_of(t.begin(), t.end(), [&](std::int64_t v) { return used_[std::size_t(v)]; });
+    };
+    tets_.erase(std::remove_if(tets_.begin(), tets_.end(), [&](const Corners &t) { return !has_all(t); }), tets_.end());
+    const std::vector<std::int64_t> part = parts_of_points();
+    std::map<std::pair<Point, std::int64_t>, std::int64_t> first;
     std::vector<std::int64_t> renamed(used_.size());
     for (std::size_t v = 0; v < used_.size(); v++) {
       if (!used_[v]) continue;
-      Point p = mesh_.points[v];
-      for (double &x : p) x += 0.0;  // -0 is 0
-      renamed[v] = first.emplace(p, std::int64_t(v)).first->second;
+      renamed[v] = first.emplace(std::pair(place(std::int64_t(v)), part[v]), std::int64_t(v)).first->second;
       facts_.coincident += renamed[v] != std::int64_t(v);
     }
-    std::vector<Corners> kept;
-    for (Corners tet : tets_) {
-      if (!std::all_of(tet.begin(), tet.end(), [&](std::int64_t v) { return used_[std::size_t(v)]; })) continue;
+    for (Corners &tet : tets_)
       for (std::int64_t &v : tet) v = renamed[std::size_t(v)];
-      kept.push_back(tet);
+  }
+
+  /// The lowest point of the tets that hang together by points and, at the same places, faces; points of no tet that is
+  /// left are parts of their own. All are one where contacts are not taken.
+  std::vector<std::int64_t> parts_of_points() const {
+    std::vector<std::int64_t> part(used_.size(), 0);
+    if (!repairs_.takes_contacts) return part;
+    std::iota(part.begin(), part.end(), 0);
+    const auto root = [&](std::int64_t v) {
+      while (part[std::size_t(v)] != v) v = part[std::size_t(v)];
+      return v;
+    };
+    const auto join = [&](std::int64_t a, std::int64_t b) {
+      part[std::size_t(std::max(root(a), root(b)))] = std::min(root(a), root(b));
+    };
+    std::map<std::array<Point, 3>, std::int64_t> first;
+    for (const Corners &tet : tets_) {
+      for (const std::int64_t v : tet) join(tet[0], v);
+      for (std::size_t k = 0; k < 4 && !is_degenerate(tet); k++)
+        join(tet[0], first.emplace(places(face_of(tet, k)), tet[0]).first->second);
     }
-    tets_ = kept;
+    for (std::size_t v = 0; v < part.size(); v++) part[v] = root(std::int64_t(v));
+    return part;
+  }
+
+  std::array<Point, 3> places(const Face &face) const {
+    return sorted(std::array<Point, 3>{place(face[0]), place(face[1]), place(face[2])});
+  }
+
+  /// Two of its corners are at one place.
+  bool is_degenerate(const Corners &tet) const {
+    std::set<Point> corners;
+    for (const std::int64_t v : tet) corners.insert(place(v));
+    return corners.size() < 4;
   }
 
   void drop_repeated() {
@@ -182,7 +221,7 @@ class Inspection {
   }
 
   const Mesh &mesh_;
-  const bool drop_nonfinite_;
+  const Repairs repairs_;
   Facts facts_;
   std::vector<bool> used_;
   std::vector<Corners> tets_;
@@ -190,7 +229,7 @@ class Inspection {
 
 }  // namespace
 
-Facts facts_of(const Mesh &mesh, bool drop_nonfinite) { return Inspection(mesh, drop_nonfinite).inspect(); }
+Facts facts_of(const Mesh &mesh, const Repairs &repairs) { return Inspection(mesh, repairs).inspect(); }
 
 Topology topology_of(const std::vector<Face> &faces) {
   Topology topology;

@@ -25,8 +25,14 @@ struct Facts {
   bool wide = false;
 };
 
-/// drop_nonfinite: points without a finite value go with their tets. Points merge only where they are equal.
-Facts facts_of(const Mesh &mesh, bool drop_nonfinite);
+/// What a run does with a mesh.
+struct Repairs {
+  bool drop_nonfinite = true;   ///< points without a finite value go with their tets
+  bool takes_contacts = false;  ///< points of parts that share no face do not merge
+};
+
+/// Points merge only where they are equal.
+Facts facts_of(const Mesh &mesh, const Repairs &repairs);
 
 /// Of the surface as it is, not cut where it touches itself.
 struct Topology {

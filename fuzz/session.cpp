@@ -137,6 +137,12 @@ bool Session::repairs(std::int32_t policy) const {
   return tetlod_get_int(context_, policy, &value) == TETLOD_OK && value == TETLOD_POLICY_REPAIR;
 }
 
+/// Collapses do, TetGen does not.
+bool Session::takes_contacts() const {
+  const bool cleans = option(TETLOD_OPT_CLEAN_EDGES) > 0 && option(TETLOD_OPT_REMESH) != 0;
+  return has_target() && !cleans && repairs(TETLOD_OPT_ON_OVERLAP);
+}
+
 bool Session::policies_repair() const {
   for (std::int32_t number = TETLOD_OPT_ON_COINCIDENT; number < TETLOD_OPT_ON_NONFINITE; number++)
     if (!repairs(number)) return false;
@@ -264,7 +270,7 @@ tetlod_status Session::run(const Disturbance &disturbance) {
   else
     DEMAND(status != TETLOD_ERR_ARGUMENT && status != TETLOD_ERR_STATE, "%d: %s", status, said_.c_str());
   if (!complete() || !counts_fit) return check_kept(), status;
-  const Facts facts = facts_of(mesh, repairs(TETLOD_OPT_ON_NONFINITE));
+  const Facts facts = facts_of(mesh, {repairs(TETLOD_OPT_ON_NONFINITE), takes_contacts()});
   check_verdict(status, mesh, facts);
   if (status == TETLOD_OK)
     accept(mesh, facts);

@@ -81,6 +81,7 @@ class Session {
 
   void set(const Setting &setting);
   double option(std::int32_t number) const;
+  bool takes_contacts() const;
   bool has_target() const { return option(TETLOD_OPT_TARGET_RATIO) > 0 || option(TETLOD_OPT_MAX_ERROR) > 0; }
 
   tetlod_status run(const Disturbance &disturbance);

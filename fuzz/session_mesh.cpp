@@ -135,9 +135,8 @@ bool same(const Fetched &a, const Fetched &b) {
 
 void Session::accept(const Mesh &mesh, const Facts &facts) {
   last_ = fetch(context_);
-  const bool takes_contacts = option(TETLOD_OPT_TARGET_RATIO) > 0 || option(TETLOD_OPT_MAX_ERROR) > 0;
   if (option(TETLOD_OPT_MERGE_TOLERANCE) == 0 && !facts.wide) {
-    check_result(mesh, facts, *last_, takes_contacts);
+    check_result(mesh, facts, *last_, takes_contacts());
     check_report(mesh, facts);
     check_flags(mesh, facts);
     if (const double bound = option(TETLOD_OPT_MAX_DEVIATION); bound > 0)
@@ -145,7 +144,7 @@ void Session::accept(const Mesh &mesh, const Facts &facts) {
   } else {  // which points merge, or which tets are flat, is not found out again
     check_positive(last_->points, last_->tets);
     check_conforming(last_->tets, last_->boundary);
-    takes_contacts ? check_components(last_->points, last_->boundary) : check_surface(last_->points, last_->boundary);
+    takes_contacts() ? check_components(last_->points, last_->boundary) : check_surface(last_->points, last_->boundary);
     check_values(last_->values, facts.low, facts.high);
   }
   tetlod_run_report report{};
@@ -253,7 +252,7 @@ void Session::check(const Disturbance &disturbance) {
     return;
   }
   if (mesh.values.size() != mesh.points.size() || option(TETLOD_OPT_MERGE_TOLERANCE) > 0) return;
-  const Facts facts = facts_of(mesh, false);
+  const Facts facts = facts_of(mesh, {false, takes_contacts()});
   if (facts.wide) return;
   const auto same_count = [&](const char *what, const tetlod_defect &told, std::int64_t is) {
     DEMAND(told.count == is, "tetlod_check: %s are %ld, not %ld", what, long(is), long(told.count));

@@ -10,6 +10,12 @@ namespace tetlod {
 
 inline bool as_published(const Options &options) { return options.target_ratio <= 0 && options.max_error <= 0; }
 
+/// Parts that lie on one another: TetGen takes none.
+inline bool takes_contacts(const Options &options) {
+  const bool needs_it = as_published(options) || (options.clean_edges > 0 && options.remesh);
+  return !needs_it && options.on_overlap == policy_repair;
+}
+
 /// A bound without a size begins with few tets.
 constexpr double first_ratio = 0.05;
 

@@ -178,4 +178,19 @@ class FaceSweep {
   Array<std::uint32_t> begin_;  // of the bucket of each vertex
 };
 
+/// visit(first, last) for the uses of every face, as FaceSweep has them, by the calling thread alone.
+template <class Visit>
+void for_each_face(const MeshView &mesh, Span<const std::uint8_t> excluded, Job &job, const Visit &visit) {
+  const Parallel one_thread(1);
+  Job alone(job.memory, one_thread);
+  alone.cancel = job.cancel;
+  alone.progress = [&](Stage, double fraction) {
+    job.poll(fraction);
+    return false;
+  };
+  FaceSweep(mesh, excluded, alone).visit([&](std::size_t, std::int32_t, const FaceUse *first, const FaceUse *last) {
+    visit(first, last);
+  });
+}
+
 }  // namespace tetlod

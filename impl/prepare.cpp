@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "budget.hpp"
 #include "first_culprit.hpp"
 #include "geometry.hpp"
 #include "merge_points.hpp"
 #include "status.hpp"
+#include "touching_parts.hpp"
 #include "whole_arrays.hpp"
 
 namespace tetlod {
@@ -307,6 +309,15 @@ int extreme_exponent(const Box &box) {
   return std::abs(exponent) > far_from_one ? exponent : 0;
 }
 
+Merged merge_coincident(Span<const Vec3> points, Span<const Tet> tets, Span<const std::uint8_t> used, const Box &box,
+                        const Options &options, Job &job, Array<std::int32_t> &representative) {
+  const double tolerance = options.merge_tolerance * box.diagonal();
+  const std::int64_t merged = merge_points(points, used, std::isfinite(tolerance) ? tolerance : 0, job, representative);
+  if (merged == 0 || !takes_contacts(options)) return {merged, merged > 0};
+  const std::int64_t left = keep_touching_parts_apart(tets, used, job, representative);
+  return {left, left < merged};
+}
+
 void prepare_original(const Input &input, const Options &options, Job &job, Original &original) {
   check_counts(input);
   original.index_base = input.index_base;
@@ -319,8 +330,10 @@ void prepare_original(const Input &input, const Options &options, Job &job, Orig
 
   // The diagonal here is that of what was submitted: which tets are left is not known before points are merged.
   Array<std::int32_t> representative(&job.memory);
-  original.merged_points = merge_points(original.view.points, original.used,
-                                        options.merge_tolerance * submitted.diagonal(), job, representative);
+  const Merged merged = merge_coincident(original.view.points, original.view.tets, original.used, submitted, options,
+                                         job, representative);
+  original.merged_points = merged.points;
+  original.merging_depends = merged.depends;
   read_flags(input, representative, job, original);
   if (original.merged_points || original.nonfinite_points || any_repeated_vertex(original.view.tets, job))
     drop_and_rename(representative, job, original);

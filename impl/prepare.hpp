@@ -30,6 +30,7 @@ struct Original {
   Array<std::uint8_t> used;           ///< of each submitted point: a submitted tet has it, and all of it is finite
   Array<std::uint8_t> left;           ///< of each: a tet of the view has it; empty: none was dropped
   std::int64_t merged_points = 0;     ///< coincident points that became one
+  bool merging_depends = false;       ///< on whether parts may be in contact
   std::int64_t nonfinite_points = 0;  ///< without a finite value, ignored with their tets
   std::int64_t dropped_tets = 0;      ///< with such a point, or with a repeated vertex, as submitted or after merging
   std::int32_t index_base = 0;        ///< as submitted
@@ -51,6 +52,15 @@ int extreme_exponent(const Box &box);
 void check_counts(const Input &input);
 /// The same for a field that has so many tuples.
 void check_count(const Input &input, const std::string &field, std::int64_t tuples, Association association);
+
+struct Merged {
+  std::int64_t points = 0;  ///< merged away
+  bool depends = false;     ///< where parts may not be in contact, or may, it could be others
+};
+/// Which points become one: merge_points() with the option's tolerance in that box, and, where parts may be in contact,
+/// keep_touching_parts_apart().
+Merged merge_coincident(Span<const Vec3> points, Span<const Tet> tets, Span<const std::uint8_t> used, const Box &box,
+                        const Options &options, Job &job, Array<std::int32_t> &representative);
 
 /// Coordinates so large or small that their sixth powers leave the range of doubles are scaled, exactly.
 /// Throws what check_counts does, mesh_index, mesh_nonfinite.

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "budget.hpp"
 #include "decimate_and_check.hpp"
 #include "solids.hpp"
 #include "whole_arrays.hpp"
@@ -52,19 +53,17 @@ Fingerprint fingerprint_of_mesh(const Input &input, const Options &options, Job 
 }
 
 bool Prepared::holds(const Fingerprint &mesh, const Input &input, const Options &options, Job &job) {
-  return holds(stamp_of(mesh, input, options, job), input, job);
-}
-
-bool Prepared::holds(const Fingerprint &stamp, const Input &input, Job &job) {
   surface_has_values_ = false;
-  return filled_ && stamp == stamp_ && renew_values(input, job, original);
+  const bool would_merge_others = original.merging_depends && took_contacts_ != takes_contacts(options);
+  return filled_ && !would_merge_others && stamp_of(mesh, input, options, job) == stamp_ &&
+         renew_values(input, job, original);
 }
 
 bool Prepared::renew(const Fingerprint &mesh, const Input &input, const Options &options, Job &job) {
-  const Fingerprint stamp = stamp_of(mesh, input, options, job);
-  if (holds(stamp, input, job)) return true;
+  if (holds(mesh, input, options, job)) return true;
   forget(job.memory);
-  stamp_ = stamp;
+  stamp_ = stamp_of(mesh, input, options, job);
+  took_contacts_ = takes_contacts(options);
   return false;
 }
 

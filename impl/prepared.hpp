@@ -1,6 +1,7 @@
 // What runs of one mesh have in common, kept from each for the next. A rule for each part says what it depends on:
 //   original, boundary, surface, topology   points, tets, flags, merge-tolerance, policies (the stamp), while all
-//                                           values are finite
+//                                           values are finite, and whether contacts are taken, if points of
+//                                           parts that touch are at one place
 //   the decimation                          that, lambda, clean-edges, max-deviation, and the field if its cost sees it
 //   the history of collapses                the original, its values and how they count; for a warm start, others
 //   verdicts                                the decimation and how far it went, min-distance, boundary-leaf
@@ -76,7 +77,6 @@ class Prepared {
   Span<std::uint8_t> verdicts(double least_distance, std::int64_t leaf, Memory &memory);
 
  private:
-  bool holds(const Fingerprint &stamp, const Input &input, Job &job);
   void prepare_surface(Job &job);
   void fill_surface(Job &job);
   DecimateReport decimate_logged(const DecimateOptions &options, Span<const std::uint8_t> flags, Job &job,
@@ -103,6 +103,7 @@ class Prepared {
   bool filled_ = false, has_surface_ = false;
   bool surface_has_values_ = false;  ///< the original's of now
   Fingerprint stamp_;
+  bool took_contacts_ = false;
   Surface surface_;
   SurfaceTopology topology_;
   ContactsOnDemand contacts_;

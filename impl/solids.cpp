@@ -10,13 +10,7 @@ namespace tetlod {
 Array<std::int32_t> solids_of_vertices(const MeshView &mesh, Job &job) {
   constexpr std::int32_t none = -1, several = -2;
   DisjointSets solids(mesh.tets.size(), job.memory);
-  const Parallel alone(1);  // sets are joined by one thread
-  Job by_itself(job.memory, alone);
-  by_itself.progress = [&](Stage, double fraction) {
-    job.poll(fraction);
-    return false;
-  };
-  FaceSweep(mesh, {}, by_itself).visit([&](std::size_t, std::int32_t, const FaceUse *first, const FaceUse *last) {
+  for_each_face(mesh, {}, job, [&](const FaceUse *first, const FaceUse *last) {
     for (const FaceUse *use = first + 1; use < last; use++)
       solids.join(std::int32_t(first->tet()), std::int32_t(use->tet()));
   });

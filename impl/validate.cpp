@@ -7,7 +7,6 @@
 #include "extract_boundary.hpp"
 #include "face_sweep.hpp"
 #include "geometry.hpp"
-#include "merge_points.hpp"
 #include "nested_solids.hpp"
 #include "predicates.hpp"
 #include "prepare.hpp"
@@ -107,9 +106,8 @@ class Inspector {
 
   void merge() {
     const Box box = scale_used_points();
-    const double tolerance = options_.merge_tolerance * box.diagonal();
     Array<std::int32_t> representative(&job_.memory);
-    merge_points(points_, used_, std::isfinite(tolerance) ? tolerance : 0, job_, representative);
+    merge_coincident(points_, tets_, used_, box, options_, job_, representative);
     for (std::size_t v = 0; v < points_.size(); v++)
       if (representative[v] != std::int32_t(v)) found_.coincident.add(std::int64_t(v) + base_);
     drop_tets([&](Tet &t, std::int64_t name) {
@@ -153,7 +151,7 @@ class Inspector {
   /// Which tets are given twice comes first, so that the faces of the others can be judged.
   void sweep_faces() {
     Array<std::uint8_t> duplicate(tets_.size(), 0, &job_.memory);
-    for_each_face([&](const FaceUse *first, const FaceUse *last) {
+    for_each_face_of_tets([&](const FaceUse *first, const FaceUse *last) {
       for (const FaceUse *f = first + 1; f < last; f++)
         if (std::any_of(first, f, [&](const FaceUse &e) { return opposite(e) == opposite(*f); }))
           duplicate[f->tet()] = 1;
@@ -163,7 +161,7 @@ class Inspector {
       if (duplicate[i]) found_.duplicate.add(name);
       return duplicate[i++] != 0;
     });
-    for_each_face([&](const FaceUse *first, const FaceUse *last) {
+    for_each_face_of_tets([&](const FaceUse *first, const FaceUse *last) {
       const std::int64_t name = std::int64_t(number_[first->tet()]) + base_;
       if (last - first == 1) found_.boundary_triangles++;
       if (last - first > 2) found_.nonmanifold_faces.add(name);
@@ -171,21 +169,9 @@ class Inspector {
     });
   }
 
-  /// Alone: the visits count into one place.
   template <class Visit>
-  void for_each_face(const Visit &visit) {
-    if (tets_.empty()) return;
-    const Parallel alone(1);
-    Job job(job_.memory, alone);
-    job.cancel = job_.cancel;
-    job.progress = [this](Stage, double fraction) {
-      job_.poll(fraction);
-      return false;
-    };
-    const MeshView mesh{points_, values_, tets_};
-    FaceSweep(mesh, {}, job).visit([&](std::size_t, std::int32_t, const FaceUse *first, const FaceUse *last) {
-      visit(first, last);
-    });
+  void for_each_face_of_tets(const Visit &visit) {
+    if (!tets_.empty()) for_each_face({points_, values_, tets_}, {}, job_, visit);
   }
 
   std::int32_t opposite(const FaceUse &f) const { return tets_[f.tet()][f.corner()]; }
@@ -265,12 +251,6 @@ constexpr Rule rules[] = {
      "faces have both their tets on one side, the first is of tet"},
     {&Defects::unused, &Options::on_unused, Status::mesh_degenerate, "points are in no tet, the first is point"},
 };
-
-/// TetGen takes none.
-bool takes_contacts(const Options &options) {
-  const bool needs_it = as_published(options) || (options.clean_edges > 0 && options.remesh);
-  return !needs_it && options.on_overlap == policy_repair;
-}
 
 }  // namespace
 

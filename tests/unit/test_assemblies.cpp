@@ -139,6 +139,32 @@ TEST_F(Assemblies, PartsThatTouchAreSimplified) {
     }
 }
 
+/// Cubes that touch with points at one place: along an edge, at a vertex, with quads cut the other way, and with
+/// smaller triangles. What were two components are two, and no edge has four triangles.
+TEST_F(Assemblies, PartsWithPointsAtOnePlaceStayApart) {
+  for (const auto &[cells, corner, mirrored] : {std::tuple(8, Vec3(1, 1, 0), false),
+                                                {8, Vec3(1, 1, 1), false},
+                                                {8, Vec3(1, 0, 0), true},
+                                                {16, Vec3(1, 0, 0), false}})
+    for (const auto effort : {effort_fast, effort_accurate}) {
+      assembly = {};
+      parts.clear();
+      add(8, Vec3(0), Vec3(1));
+      Mesh second = kuhn_cube(cells);
+      transform(second, [&, mirrored = mirrored, corner = corner](const Vec3 &p) {
+        return corner + (mirrored ? Vec3(p.x, 1 - p.y, p.z) : p);
+      });
+      add(std::move(second));
+      options.effort = effort;
+      options.target_ratio = 0.1;
+      simplify(assembly);
+      expect_each_sound();
+      EXPECT_EQ(report().components, 2);
+      EXPECT_EQ(report().nonmanifold_edges, 0);
+      for (const Mesh &part : parts) EXPECT_LT(largest_error_of(part), 0.1);
+    }
+}
+
 /// Each part has its own value and number, which no place that two have in common mixes.
 TEST_F(Assemblies, FieldsAndErrorsAreThoseOfTheOwnPart) {
   start_with_bricks();
@@ -308,6 +334,22 @@ TEST_F(Assemblies, AreTheSameForAnyNumberOfThreadsAndInLaterRuns) {
     Result later(two.memory);
     run(input_of(assembly), options, worker, prepared, two.job, later);
     EXPECT_EQ(later.report.hash == hash, ratio == 0.1);
+  }
+}
+
+/// It takes what touches for one.
+TEST_F(Assemblies, APublishedRunBetweenChangesNothing) {
+  add(6, Vec3(0), Vec3(1));
+  add(6, Vec3(1, 1, 0), Vec3(2, 2, 1));
+  Prepared prepared(host.memory);
+  std::uint64_t first = 0;
+  for (const double ratio : {0.1, 0.0, 0.1}) {
+    options.target_ratio = ratio;
+    Result later(host.memory);
+    run(input_of(assembly), options, worker, prepared, host.job, later);
+    EXPECT_EQ(later.report.merged_points, ratio > 0 ? 0 : 7);
+    if (first == 0) first = later.report.hash;
+    EXPECT_EQ(later.report.hash == first, ratio > 0);
   }
 }
 

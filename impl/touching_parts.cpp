@@ -1,0 +1,105 @@
+#include "touching_parts.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+#include "disjoint_sets.hpp"
+#include "face_sweep.hpp"
+
+namespace tetlod {
+
+namespace {
+
+class TouchingParts {
+ public:
+  TouchingParts(Span<const Tet> tets, Span<const std::uint8_t> used, Job &job, Array<std::int32_t> &representative)
+      : tets_(tets),
+        used_(used),
+        job_(job),
+        representative_(representative),
+        parts_(representative.size(), job.memory) {}
+
+  std::int64_t keep_apart() {
+    join_tets();
+    if (any_apart()) join_across_faces();
+    if (any_apart()) split_places();
+    std::int64_t merged = 0;
+    for (std::size_t v = 0; v < representative_.size(); v++) merged += representative_[v] != std::int32_t(v);
+    return merged;
+  }
+
+ private:
+  bool has_all(const Tet &t) const {
+    return std::all_of(t.begin(), t.end(), [&](std::int32_t v) { return used_[std::size_t(v)] != 0; });
+  }
+
+  void join_tets() {
+    for (std::size_t t = 0; t < tets_.size(); t++) {
+      job_.poll_at(t, 0.9);
+      for (const std::int32_t v : tets_[t])
+        if (has_all(tets_[t])) parts_.join(tets_[t][0], v);
+    }
+  }
+
+  bool is_apart(std::size_t v) { return parts_.lowest(std::int32_t(v)) != parts_.lowest(representative_[v]); }
+
+  bool any_apart() {
+    for (std::size_t v = 0; v < representative_.size(); v++)
+      if (is_apart(v)) return true;
+    return false;
+  }
+
+  void join_across_faces() {
+    Array<Tet> places(tets_.begin(), tets_.end(), &job_.memory);
+    Array<std::uint8_t> excluded(tets_.size(), 0, &job_.memory);
+    for (std::size_t t = 0; t < places.size(); t++) {
+      job_.poll_at(t, 0.9);
+      for (std::int32_t &v : places[t]) v = representative_[std::size_t(v)];
+      excluded[t] = has_repeated_vertex(places[t]) || !has_all(tets_[t]);
+    }
+    const MeshView mesh{{nullptr, representative_.size()}, {}, places};
+    for_each_face(mesh, excluded, job_, [&](const FaceUse *first, const FaceUse *last) {
+      for (const FaceUse *use = first + 1; use < last; use++) parts_.join(tets_[first->tet()][0], tets_[use->tet()][0]);
+    });
+  }
+
+  /// Where several parts are at one place, the lowest point of each stands for that part's.
+  void split_places() {
+    Array<std::uint8_t> shared(representative_.size(), 0, &job_.memory);
+    for (std::size_t v = 0; v < shared.size(); v++)
+      if (is_apart(v)) shared[std::size_t(representative_[v])] = 1;
+    struct OfPlace {
+      std::int32_t place, part, point;
+      bool operator<(const OfPlace &other) const {
+        return std::tie(place, part, point) < std::tie(other.place, other.part, other.point);
+      }
+    };
+    Array<OfPlace> points(&job_.memory);
+    for (std::size_t v = 0; v < shared.size(); v++) {
+      job_.poll_at(v, 0.9);
+      const std::int32_t place = representative_[v], point = std::int32_t(v);
+      if (shared[std::size_t(place)]) points.push_back({place, parts_.lowest(point), point});
+    }
+    std::sort(points.begin(), points.end(), PollingLess(job_, 0.9, std::less<OfPlace>()));
+    for (std::size_t i = 0; i < points.size(); i++) {
+      const bool goes_on = i > 0 && points[i].place == points[i - 1].place && points[i].part == points[i - 1].part;
+      const std::int32_t lowest = goes_on ? representative_[std::size_t(points[i - 1].point)] : points[i].point;
+      representative_[std::size_t(points[i].point)] = lowest;
+    }
+  }
+
+  Span<const Tet> tets_;
+  Span<const std::uint8_t> used_;
+  Job &job_;
+  Array<std::int32_t> &representative_;
+  DisjointSets parts_;  // of the points
+};
+
+}  // namespace
+
+std::int64_t keep_touching_parts_apart(Span<const Tet> tets, Span<const std::uint8_t> used, Job &job,
+                                       Array<std::int32_t> &representative) {
+  return TouchingParts(tets, used, job, representative).keep_apart();
+}
+
+}  // namespace tetlod

@@ -1,0 +1,181 @@
+// Of points at one place those of parts that only touch stay apart.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <random>
+#include <set>
+#include <vector>
+
+#include "merge_points.hpp"
+#include "meshes.hpp"
+#include "prepare.hpp"
+#include "touching_parts.hpp"
+
+namespace tetlod {
+namespace {
+
+using namespace test;
+
+class TouchingParts : public testing::Test {
+ protected:
+  Host host{2};
+  Mesh mesh;
+  std::vector<std::uint8_t> used;
+  Array<std::int32_t> representative{&host.memory};
+
+  /// A cube of n^3 cells at that corner, mirrored: with the diagonals of its y faces the other way round.
+  void add_cube(int n, const Vec3 &corner, bool mirrored = false) {
+    Mesh cube = kuhn_cube(n);
+    transform(cube, [&](const Vec3 &p) { return corner + (mirrored ? Vec3(p.x, 1 - p.y, p.z) : p); });
+    append(mesh, cube);
+  }
+
+  std::int64_t merge_all() {
+    used.resize(mesh.points.size(), 1);
+    return merge_points(mesh.view().points, {used.data(), used.size()}, 0, host.job, representative);
+  }
+  std::int64_t merge() {
+    merge_all();
+    return keep_touching_parts_apart(mesh.view().tets, {used.data(), used.size()}, host.job, representative);
+  }
+
+  /// Part by part, tet by tet, until nothing changes.
+  std::vector<std::int32_t> brute_force() const {
+    const auto at = [&](std::int32_t v) {
+      const Vec3 &p = mesh.points[std::size_t(v)];
+      return std::array<double, 3>{p.x, p.y, p.z};
+    };
+    const auto places_of = [&](const Tet &t) {
+      return std::set<std::array<double, 3>>{at(t[0]), at(t[1]), at(t[2]), at(t[3])};
+    };
+    const auto hang_together = [&](const Tet &a, const Tet &b) {
+      if (std::any_of(a.begin(), a.end(), [&](auto v) { return std::count(b.begin(), b.end(), v) > 0; })) return true;
+      const auto here = places_of(a), there = places_of(b);
+      const auto common = std::count_if(here.begin(), here.end(), [&](const auto &p) { return there.count(p) > 0; });
+      return here.size() == 4 && there.size() == 4 && common >= 3;
+    };
+    const auto counts = [&](const Tet &t) {
+      return std::all_of(t.begin(), t.end(), [&](auto v) { return used[std::size_t(v)] != 0; });
+    };
+    std::vector<std::size_t> part(mesh.tets.size());
+    std::iota(part.begin(), part.end(), 0);
+    for (bool again = true; again;) {
+      again = false;
+      for (std::size_t i = 0; i < part.size(); i++)
+        for (std::size_t j = 0; j < i; j++) {
+          const Tet &a = mesh.tets[i], &b = mesh.tets[j];
+          if (part[i] == part[j] || !counts(a) || !counts(b) || !hang_together(a, b)) continue;
+          part[i] = part[j] = std::min(part[i], part[j]);
+          again = true;
+        }
+    }
+    std::vector<std::int32_t> lowest(mesh.points.size());
+    std::vector<std::size_t> of_point(mesh.points.size());
+    for (std::size_t v = 0; v < of_point.size(); v++) of_point[v] = part.size() + v;  // of no tet: alone
+    for (std::size_t t = 0; t < part.size(); t++)
+      for (const std::int32_t v : mesh.tets[t])
+        if (counts(mesh.tets[t])) of_point[std::size_t(v)] = part[t];
+    std::map<std::pair<std::array<double, 3>, std::size_t>, std::int32_t> first;
+    for (std::size_t v = 0; v < lowest.size(); v++) {
+      lowest[v] = std::int32_t(v);
+      if (used[v]) lowest[v] = first.emplace(std::pair(at(lowest[v]), of_point[v]), lowest[v]).first->second;
+    }
+    return lowest;
+  }
+
+  void expect_as_by_brute_force() {
+    const std::int64_t merged = merge();
+    const std::vector<std::int32_t> expected = brute_force();
+    EXPECT_EQ(std::vector<std::int32_t>(representative.begin(), representative.end()), expected);
+    std::int64_t count = 0;
+    for (std::size_t v = 0; v < expected.size(); v++) count += expected[v] != std::int32_t(v);
+    EXPECT_EQ(merged, count);
+  }
+};
+
+TEST_F(TouchingParts, ThatShareFacesAreOne) {
+  add_cube(4, Vec3(0));
+  add_cube(4, Vec3(1, 0, 0));
+  EXPECT_EQ(merge(), 25);
+  expect_as_by_brute_force();
+}
+
+TEST_F(TouchingParts, StayApart) {
+  struct Second {
+    int cells;
+    Vec3 corner;
+    bool mirrored;
+  };
+  for (const Second &second : {Second{4, Vec3(1, 1, 0), false},     // along an edge
+                               Second{4, Vec3(1, 1, 1), false},     // at a vertex
+                               Second{4, Vec3(1, 0, 0), true},      // quads cut the other way
+                               Second{8, Vec3(1, 0, 0), false}}) {  // smaller triangles
+    mesh = {};
+    used.clear();
+    add_cube(4, Vec3(0));
+    add_cube(second.cells, second.corner, second.mirrored);
+    EXPECT_EQ(merge(), 0) << second.corner.y;
+    expect_as_by_brute_force();
+  }
+}
+
+/// Two of three lie on one another with the same faces, the third on both with others.
+TEST_F(TouchingParts, EachPlaceHasAPointOfEachPart) {
+  add_cube(2, Vec3(0));
+  add_cube(2, Vec3(1, 0, 0));
+  add_cube(4, Vec3(0.5, 0, 1));
+  EXPECT_EQ(merge(), 9);
+  expect_as_by_brute_force();
+}
+
+/// A tet without volume that has points of both, or one face that both have, makes them one all over.
+TEST_F(TouchingParts, OneTieMakesOneOfTwo) {
+  add_cube(4, Vec3(0));
+  const auto first = std::int32_t(mesh.points.size());
+  add_cube(4, Vec3(1, 0, 0), true);
+  std::int32_t twin = 0, other = first;
+  while (mesh.points[std::size_t(twin)] != Vec3(1)) twin++;
+  while (mesh.points[std::size_t(other)] != Vec3(1)) other++;
+  mesh.tets.push_back({0, 1, twin, other});
+  EXPECT_EQ(merge(), 25);
+  expect_as_by_brute_force();
+  used[0] = 0;  // a tet that goes ties nothing
+  EXPECT_EQ(merge(), 0);
+  expect_as_by_brute_force();
+}
+
+/// Few places, of which each has many points.
+TEST_F(TouchingParts, AsByBruteForce) {
+  std::mt19937_64 random(3);
+  const auto any = [&](int count) { return int(random() % std::uint64_t(count)); };
+  int differ = 0;
+  for (int round = 0; round < 200; round++) {
+    mesh = {};
+    for (int i = 0; i < 40; i++) mesh.points.push_back(Vec3(any(2), any(2), any(2)));
+    mesh.scalars.assign(mesh.points.size(), 0);
+    for (int i = 0; i < 3 + any(20); i++) mesh.tets.push_back({any(40), any(40), any(40), any(40)});
+    used.assign(mesh.points.size(), 1);
+    for (int i = 0; i < any(4); i++) used[std::size_t(any(40))] = 0;
+    expect_as_by_brute_force();
+    const Array<std::int32_t> apart = representative;
+    merge_all();
+    differ += representative != apart;
+  }
+  EXPECT_GT(differ, 50) << "parts only touch in most of them";
+}
+
+/// TetGen takes each place once: where it is asked for, all points there are one.
+TEST_F(TouchingParts, AreMergedWhereNoContactsAreTaken) {
+  add_cube(4, Vec3(0));
+  add_cube(4, Vec3(1, 0, 0), true);
+  Options options;
+  for (const bool collapses : {false, true}) {
+    options.target_ratio = collapses ? 0.1 : 0;
+    Original original(host.memory);
+    prepare_original(input_of(mesh), options, host.job, original);
+    EXPECT_EQ(original.merged_points, collapses ? 0 : 25);
+  }
+}
+
+}  // namespace
+}  // namespace tetlod
