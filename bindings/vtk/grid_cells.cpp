@@ -14,8 +14,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <cstring>
 #include <map>
 #include <stdexcept>
+#include <utility>
 
 namespace tetlod_vtk {
 namespace {
@@ -162,10 +165,34 @@ Tets cut_quadratic_tets(vtkUnstructuredGrid &grid) {
   return {corners, cells};
 }
 
+// Of each point, the lowest that is at its place; empty: no two are at one.
+using Places = std::vector<vtkIdType>;
+
+Places places_of(vtkUnstructuredGrid &grid) {
+  using Bits = std::array<std::uint64_t, 3>;  // ordered whatever the coordinates are
+  std::vector<std::pair<Bits, vtkIdType>> points(std::size_t(grid.GetNumberOfPoints()));
+  for (std::size_t i = 0; i < points.size(); i++) {
+    std::array<double, 3> p = point(grid, vtkIdType(i));
+    for (double &x : p) x += 0.0;  // -0 is 0
+    std::memcpy(points[i].first.data(), p.data(), sizeof p);
+    points[i].second = vtkIdType(i);
+  }
+  std::sort(points.begin(), points.end());
+  Places places(points.size());
+  bool any = false;
+  for (std::size_t i = 0; i < points.size(); i++) {
+    const bool again = i > 0 && points[i].first == points[i - 1].first;
+    places[std::size_t(points[i].second)] = again ? places[std::size_t(points[i - 1].second)] : points[i].second;
+    any = any || again;
+  }
+  return any ? places : Places();
+}
+
 constexpr char kCellNumbers[] = "tetlod cell numbers";
 
-// The solids by their corners, as linear cells over the same points, with their numbers as cell data.
-vtkSmartPointer<vtkUnstructuredGrid> corner_grid(vtkUnstructuredGrid &grid) {
+// The solids by their corners, as linear cells over the same points, with their numbers as cell data. With places, over
+// the lowest points at these.
+vtkSmartPointer<vtkUnstructuredGrid> corner_grid(vtkUnstructuredGrid &grid, const Places &places) {
   auto linear = vtkSmartPointer<vtkUnstructuredGrid>::New();
   vtkNew<vtkTypeInt64Array> cells;
   cells->SetName(kCellNumbers);
@@ -173,7 +200,10 @@ vtkSmartPointer<vtkUnstructuredGrid> corner_grid(vtkUnstructuredGrid &grid) {
   linear->Allocate(grid.GetNumberOfCells());
   for_each_solid(grid, 0, [&](int type, const vtkIdType *ids, vtkIdType cell) {
     const Solid &solid = solids().at(type);
-    linear->InsertNextCell(solid.linear, solid.corners, ids);
+    std::array<vtkIdType, 8> corners{};
+    std::transform(ids, ids + solid.corners, corners.begin(),
+                   [&](vtkIdType id) { return places.empty() ? id : places[std::size_t(id)]; });
+    linear->InsertNextCell(solid.linear, solid.corners, corners.data());
     cells->InsertNextValue(cell);
   });
   linear->GetCellData()->AddArray(cells);
@@ -187,6 +217,18 @@ bool holds_tets_alone(vtkUnstructuredGrid &grid) {
 }
 
 vtkDataArray *cell_numbers(vtkUnstructuredGrid &grid) { return grid.GetCellData()->GetArray(kCellNumbers); }
+
+// In place of the lowest points at their places, those that their cells have there.
+void take_own_points(vtkUnstructuredGrid &grid, const Places &places, const Tets &tets) {
+  for (vtkIdType i = 0; i < tets.corners->GetNumberOfValues(); i++) {
+    vtkIdType size = 0;
+    const vtkIdType *ids = nullptr;
+    grid.GetCells()->GetCellAtId(vtkIdType(tets.cells->GetComponent(i / 4, 0)), size, ids);
+    const auto place = vtkIdType(tets.corners->GetComponent(i, 0));
+    const auto own = std::find_if(ids, ids + size, [&](vtkIdType id) { return places[std::size_t(id)] == place; });
+    tets.corners->SetComponent(i, 0, double(*own));
+  }
+}
 
 // Diagonals of quadrilaterals follow the order of the point numbers, so that neighbours agree.
 Tets split(vtkSmartPointer<vtkUnstructuredGrid> grid) {
@@ -206,7 +248,10 @@ Tets tets_of(vtkUnstructuredGrid &grid, std::vector<std::string> &notes) {
   const Counts types = solid_types(count_types(grid), notes);
   if (types.size() == 1 && types.count(VTK_QUADRATIC_TETRA) == 1) return cut_quadratic_tets(grid);
   note_curved(types, notes);
-  return split(corner_grid(grid));
+  const Places places = places_of(grid);  // blocks of a grid may each have points of their own where they meet
+  const Tets tets = split(corner_grid(grid, places));
+  if (!places.empty()) take_own_points(grid, places, tets);
+  return tets;
 }
 
 }  // namespace tetlod_vtk

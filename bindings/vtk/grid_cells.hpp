@@ -17,8 +17,9 @@ struct Tets {
 
 // The tets of a grid, over its own points: the grid's own array where it holds tets alone, otherwise
 //   quadratic tets    eight tets each, when all volume cells are such;
-//   other cells       by their corners: hexahedra, voxels, wedges, pyramids are split so that neighbours fit; of
-//                     quadratic and higher cells the points between the corners are left out (a note says so);
+//   other cells       by their corners: hexahedra, voxels, wedges, pyramids are split so that neighbours fit, also
+//                     those that have points of their own at one place; of quadratic and higher cells the points
+//                     between the corners are left out (a note says so);
 //   surfaces, lines   are left out (a note says so);
 //   ghosts            are left out: duplicate and hidden cells. Points that they alone have stay, unused.
 // Throws std::runtime_error for polyhedra and other cells, and names them.

@@ -9,9 +9,13 @@
 #include <vtkIdList.h>
 #include <vtkIntArray.h>
 #include <vtkPointData.h>
+#include <vtkPoints.h>
 #include <vtkStringArray.h>
+#include <vtkTetra.h>
 #include <vtkTypeInt64Array.h>
 #include <vtkUnsignedCharArray.h>
+
+#include <cmath>
 
 #include "filter_fixture.hpp"
 #include "tetlod.h"
@@ -47,6 +51,39 @@ vtkSmartPointer<Array> numbers(const char *name, vtkIdType tuples, int component
   const auto array = array_of<Array>(name, tuples, components);
   for (vtkIdType i = 0; i < array->GetNumberOfValues(); i++) array->SetValue(i, 3);
   return array;
+}
+
+// The same cells, each with points of its own, in an order that is another one in every second.
+Grid with_points_of_their_own(vtkUnstructuredGrid &grid) {
+  auto apart = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkDoubleArray> heat;
+  heat->SetName("heat");
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType c = 0; c < grid.GetNumberOfCells(); c++) {
+    grid.GetCellPoints(c, ids);
+    const vtkIdType first = points->GetNumberOfPoints(), count = ids->GetNumberOfIds();
+    const auto own = [&](vtkIdType k) { return c % 2 ? count - 1 - k : k; };
+    for (vtkIdType k = 0; k < count; k++) {
+      points->InsertNextPoint(grid.GetPoint(ids->GetId(own(k))));
+      heat->InsertNextValue(grid.GetPointData()->GetArray("heat")->GetComponent(ids->GetId(own(k)), 0));
+    }
+    for (vtkIdType k = 0; k < count; k++) ids->SetId(k, first + own(k));
+    apart->InsertNextCell(grid.GetCellType(c), ids);
+  }
+  apart->SetPoints(points);
+  apart->GetPointData()->SetScalars(heat);
+  return apart;
+}
+
+double volume_of(vtkUnstructuredGrid &tets) {
+  double volume = 0;
+  for (vtkIdType t = 0; t < tets.GetNumberOfCells(); t++) {
+    double p[4][3];
+    for (int k = 0; k < 4; k++) tets.GetPoint(tets.GetCell(t)->GetPointId(k), p[k]);
+    volume += std::abs(vtkTetra::ComputeVolume(p[0], p[1], p[2], p[3]));
+  }
+  return volume;
 }
 
 TEST_F(Input, ArraysOfTooManyComponentsAreLeftOut) {
@@ -127,6 +164,18 @@ TEST_F(Input, ACellWithTooFewPointsIsAnError) {
   grid->InsertNextCell(VTK_HEXAHEDRON, corners);
   filter->SetInputData(grid);
   expect_failure("cell 216 has 7 points only", TETLOD_ERR_ARGUMENT);
+}
+
+// As blocks of a grid have where they meet. Split along other diagonals, cells would have slits between them.
+TEST_F(Input, CellsWithPointsOfTheirOwnAreSplitSoThatTheyFit) {
+  for (const Kind kind : {Kind::hexahedron, Kind::wedge, Kind::pyramid}) {
+    Cube cube;
+    cube.kind = kind;
+    const Grid apart = with_points_of_their_own(*cube_grid(cube));
+    filter->SetInputData(apart);
+    EXPECT_NEAR(volume_of(*updated()), 1, 1e-12) << int(kind);
+  }
+  expect_silence();
 }
 
 TEST_F(Input, AFieldOfCellsIsNamedAsSuch) {
