@@ -182,7 +182,8 @@ void run_stages(Stage &stage, const Mesh &mesh, Bytes &in) {
   trace(mesh);
   const MeshInput holder(mesh);
   tetlod::Original original(stage.memory());
-  const Facts facts = facts_of(mesh, {options.on_nonfinite == tetlod::policy_repair, tetlod::takes_contacts(options)});
+  const Facts facts =
+      facts_of(mesh, {options.on_nonfinite == tetlod::policy_repair, tetlod::takes_contacts(options), false});
   const Status prepared =
       stage.call("prepare_original", {Status::mesh_empty, Status::mesh_index, Status::mesh_nonfinite},
                  [&] { tetlod::prepare_original(holder.input(), options, stage.job(), original); });

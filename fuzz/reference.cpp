@@ -141,8 +141,8 @@ class Inspection {
       for (std::int64_t &v : tet) v = renamed[std::size_t(v)];
   }
 
-  /// The lowest point of the tets that hang together by points and, at the same places, faces; points of no tet that is
-  /// left are parts of their own. All are one where contacts are not taken.
+  /// The lowest point of the tets that hang together by points and, at the same places, faces and quads; points of no
+  /// tet that is left are parts of their own. All are one where contacts are not taken.
   std::vector<std::int64_t> parts_of_points() const {
     std::vector<std::int64_t> part(used_.size(), 0);
     if (!repairs_.takes_contacts) return part;
@@ -160,8 +160,77 @@ class Inspection {
       for (std::size_t k = 0; k < 4 && !is_degenerate(tet); k++)
         join(tet[0], first.emplace(places(face_of(tet, k)), tet[0]).first->second);
     }
+    for (const auto &tets_at_quad : crossed_quads(tets_by_place()))
+      for (const std::size_t t : tets_at_quad) join(tets_[tets_at_quad[0]][0], tets_[t][0]);
     for (std::size_t v = 0; v < part.size(); v++) part[v] = root(std::int64_t(v));
     return part;
+  }
+
+  /// Degenerate ones have no faces: all their corners are one.
+  std::vector<Corners> tets_by_place() const {
+    std::map<Point, std::int64_t> first;
+    for (std::size_t v = 0; v < used_.size(); v++)
+      if (used_[v]) first.emplace(place(std::int64_t(v)), std::int64_t(v));
+    std::vector<Corners> tets = tets_;
+    for (Corners &tet : tets) {
+      const bool degenerate = is_degenerate(tet);
+      for (std::int64_t &v : tet) v = degenerate ? -1 : first.at(place(v));
+    }
+    return tets;
+  }
+
+  /// The four faces of a tet with next to no volume, each of one tet of the mesh, which is another and has its fourth
+  /// corner not inside. Returns these tets; `faces`: those of all.
+  std::vector<std::array<std::size_t, 4>> crossed_quads(const std::vector<Corners> &tets,
+                                                        std::set<Face> *faces = nullptr) const {
+    std::map<Face, std::size_t> single;
+    for (const auto &[face, users] : users_of(tets))
+      if (users.size() == 1 && face[0] >= 0) single[face] = users[0];
+    std::vector<std::array<std::size_t, 4>> found;
+    std::set<Face> taken;
+    for (auto low = single.begin(); low != single.end(); ++low)
+      for (auto next = std::next(low); next != single.end(); ++next) {
+        const auto [a, b, c] = low->first;
+        const std::int64_t d = next->first[2];
+        if (next->first[0] != a || next->first[1] != b) break;
+        const std::array<Face, 4> quad = {Face{b, c, d}, Face{a, c, d}, next->first, low->first};
+        const bool crossed =
+            is_thin({a, b, c, d}) && std::all_of(quad.begin(), quad.end(), [&](const Face &face) {
+              return single.count(face) && !taken.count(face) && !has_inside({a, b, c, d}, tets[single[face]]);
+            });
+        if (!crossed) continue;
+        taken.insert(quad.begin(), quad.end());
+        found.push_back({single[quad[0]], single[quad[1]], single[quad[2]], single[quad[3]]});
+      }
+    if (faces != nullptr) *faces = taken;
+    return found;
+  }
+
+  bool is_thin(const Corners &t) const {
+    double side[3][3], longest = 0;
+    for (std::size_t k = 0; k < 3; k++)
+      for (std::size_t i = 0; i < 3; i++) {
+        side[k][i] = at(t[k + 1])[i] - at(t[0])[i];
+        longest = std::max(longest, std::abs(side[k][i]));
+      }
+    for (auto &vector : side)
+      for (double &x : vector) x /= longest;
+    const auto minor = [&](std::size_t i, std::size_t j) { return side[0][i] * side[1][j] - side[1][i] * side[0][j]; };
+    return std::abs(minor(1, 2) * side[2][0] + minor(2, 0) * side[2][1] + minor(0, 1) * side[2][2]) <= 0.1;
+  }
+
+  bool has_inside(const Corners &corners, const Corners &tet) const {
+    for (const std::int64_t v : tet) {
+      if (std::count(corners.begin(), corners.end(), v)) continue;
+      bool inside = side_of(corners) != 0;
+      for (std::size_t k = 0; k < 4; k++) {
+        Corners other = corners;
+        other[k] = v;
+        inside = inside && side_of(other) == side_of(corners);
+      }
+      return inside;
+    }
+    return true;
   }
 
   std::array<Point, 3> places(const Face &face) const {
@@ -218,6 +287,16 @@ class Inspection {
         if (side_of(tet) < 0) std::swap(face[1], face[2]);
         facts_.boundary.push_back(face);
       }
+    if (repairs_.closes_quads) close_quads();
+  }
+
+  void close_quads() {
+    std::set<Face> closed;
+    crossed_quads(facts_.tets, &closed);
+    if (closed.size() == facts_.boundary.size()) return;  // nothing would be left
+    const auto is_closed = [&](const Face &face) { return closed.count(sorted(face)) > 0; };
+    facts_.boundary.erase(std::remove_if(facts_.boundary.begin(), facts_.boundary.end(), is_closed),
+                          facts_.boundary.end());
   }
 
   const Mesh &mesh_;

@@ -28,7 +28,8 @@ struct Facts {
 /// What a run does with a mesh.
 struct Repairs {
   bool drop_nonfinite = true;   ///< points without a finite value go with their tets
-  bool takes_contacts = false;  ///< points of parts that share no face do not merge
+  bool takes_contacts = false;  ///< points of parts that share no face, and no crossed quad, do not merge
+  bool closes_quads = false;    ///< those that tets on the two sides cut along different diagonals: they are inside
 };
 
 /// Points merge only where they are equal.

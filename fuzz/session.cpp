@@ -270,7 +270,8 @@ tetlod_status Session::run(const Disturbance &disturbance) {
   else
     DEMAND(status != TETLOD_ERR_ARGUMENT && status != TETLOD_ERR_STATE, "%d: %s", status, said_.c_str());
   if (!complete() || !counts_fit) return check_kept(), status;
-  const Facts facts = facts_of(mesh, {repairs(TETLOD_OPT_ON_NONFINITE), takes_contacts()});
+  const Facts facts =
+      facts_of(mesh, {repairs(TETLOD_OPT_ON_NONFINITE), takes_contacts(), repairs(TETLOD_OPT_ON_OVERLAP)});
   check_verdict(status, mesh, facts);
   if (status == TETLOD_OK)
     accept(mesh, facts);

@@ -252,7 +252,7 @@ void Session::check(const Disturbance &disturbance) {
     return;
   }
   if (mesh.values.size() != mesh.points.size() || option(TETLOD_OPT_MERGE_TOLERANCE) > 0) return;
-  const Facts facts = facts_of(mesh, {false, takes_contacts()});
+  const Facts facts = facts_of(mesh, {false, takes_contacts(), repairs(TETLOD_OPT_ON_OVERLAP)});
   if (facts.wide) return;
   const auto same_count = [&](const char *what, const tetlod_defect &told, std::int64_t is) {
     DEMAND(told.count == is, "tetlod_check: %s are %ld, not %ld", what, long(is), long(told.count));

@@ -40,10 +40,7 @@ void Beginning::prepare() {
 
 void Beginning::extract() {
   const StageTimer timer(Stage::boundary, job_, report_);
-  if (!report_.reused_tets) {
-    extract_boundary(original_.view, job_, boundary_, original_.numbers());
-    drop_excluded(input_, job_, boundary_, original_);
-  }
+  if (!report_.reused_tets) prepare_boundary(input_, options_, job_, original_, boundary_);
   prepared_.complete();
   describe_input(input_, original_, report_);
   describe_extraction(boundary_, report_);

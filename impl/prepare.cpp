@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "budget.hpp"
+#include "close_quads.hpp"
 #include "first_culprit.hpp"
 #include "geometry.hpp"
 #include "merge_points.hpp"
@@ -268,6 +269,23 @@ bool any_repeated_vertex(Span<const Tet> tets, Job &job) {
   return culprit.any();
 }
 
+void drop_excluded(const Input &input, Job &job, Boundary &boundary, Original &original) {
+  if (boundary.excluded.empty()) return;
+  Array<Tet> kept(&job.memory);
+  Array<std::int32_t> numbers(&job.memory), renamed = array_of(original.view.tets.size(), -1, job);
+  for (std::size_t t = 0; t < renamed.size(); t++) {
+    job.poll_at(t, 0.9);
+    if (boundary.excluded[t]) continue;
+    renamed[t] = std::int32_t(kept.size());
+    kept.push_back(original.view.tets[t]);
+    numbers.push_back(original.tet_number.empty() ? std::int32_t(t) : original.tet_number[t]);
+  }
+  take_tets(std::move(kept), std::move(numbers), job, original);
+  for (std::int32_t &t : boundary.tet_of) t = renamed[std::size_t(t)];
+  boundary.excluded.clear();
+  measure(input, job, original);
+}
+
 void require_a_value_a_point(const Input &input) {
   const auto points = static_cast<long long>(input.xyz[0].tuples),
              values = static_cast<long long>(input.scalars.tuples);
@@ -314,7 +332,7 @@ Merged merge_coincident(Span<const Vec3> points, Span<const Tet> tets, Span<cons
   const double tolerance = options.merge_tolerance * box.diagonal();
   const std::int64_t merged = merge_points(points, used, std::isfinite(tolerance) ? tolerance : 0, job, representative);
   if (merged == 0 || !takes_contacts(options)) return {merged, merged > 0};
-  const std::int64_t left = keep_touching_parts_apart(tets, used, job, representative);
+  const std::int64_t left = keep_touching_parts_apart(points, tets, used, job, representative);
   return {left, left < merged};
 }
 
@@ -343,28 +361,16 @@ void prepare_original(const Input &input, const Options &options, Job &job, Orig
   measure(input, job, original);
 }
 
-void drop_excluded(const Input &input, Job &job, Boundary &boundary, Original &original) {
-  if (boundary.excluded.empty()) return;
-  Array<Tet> kept(&job.memory);
-  Array<std::int32_t> numbers(&job.memory), renamed = array_of(original.view.tets.size(), -1, job);
-  for (std::size_t t = 0; t < renamed.size(); t++) {
-    job.poll_at(t, 0.9);
-    if (boundary.excluded[t]) continue;
-    renamed[t] = std::int32_t(kept.size());
-    kept.push_back(original.view.tets[t]);
-    numbers.push_back(original.tet_number.empty() ? std::int32_t(t) : original.tet_number[t]);
-  }
-  take_tets(std::move(kept), std::move(numbers), job, original);
-  for (std::int32_t &t : boundary.tet_of) t = renamed[std::size_t(t)];
-  boundary.excluded.clear();
-  measure(input, job, original);
+void prepare_boundary(const Input &input, const Options &options, Job &job, Original &original, Boundary &boundary) {
+  extract_boundary(original.view, job, boundary, original.numbers());
+  drop_excluded(input, job, boundary, original);
+  if (options.on_overlap == policy_repair) close_crossed_quads(job, boundary, original);
 }
 
 void prepare_with_boundary(const Input &input, const Options &options, Job &job, Original &original,
                            Boundary &boundary) {
   prepare_original(input, options, job, original);
-  extract_boundary(original.view, job, boundary, original.numbers());
-  drop_excluded(input, job, boundary, original);
+  prepare_boundary(input, options, job, original, boundary);
 }
 
 bool renew_values(const Input &input, Job &job, Original &original) {

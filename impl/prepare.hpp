@@ -66,11 +66,11 @@ Merged merge_coincident(Span<const Vec3> points, Span<const Tet> tets, Span<cons
 /// Throws what check_counts does, mesh_index, mesh_nonfinite.
 void prepare_original(const Input &input, const Options &options, Job &job, Original &original);
 
-/// What the boundary of the view leaves out, flat tets that hang on it and those given twice, is dropped, and points
-/// that no other tet has are none of the mesh any more.
-void drop_excluded(const Input &input, Job &job, Boundary &boundary, Original &original);
+/// Then: extract_boundary. What it leaves out of the view, flat tets that hang on it and those given twice, is dropped,
+/// and points that no other tet has are none of the mesh any more. Where overlaps are repaired, close_crossed_quads.
+void prepare_boundary(const Input &input, const Options &options, Job &job, Original &original, Boundary &boundary);
 
-/// prepare_original, extract_boundary and drop_excluded.
+/// prepare_original and prepare_boundary.
 void prepare_with_boundary(const Input &input, const Options &options, Job &job, Original &original,
                            Boundary &boundary);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "crossed_quads.hpp"
 #include "disjoint_sets.hpp"
 #include "face_sweep.hpp"
 
@@ -12,8 +13,10 @@ namespace {
 
 class TouchingParts {
  public:
-  TouchingParts(Span<const Tet> tets, Span<const std::uint8_t> used, Job &job, Array<std::int32_t> &representative)
-      : tets_(tets),
+  TouchingParts(Span<const Vec3> points, Span<const Tet> tets, Span<const std::uint8_t> used, Job &job,
+                Array<std::int32_t> &representative)
+      : points_(points),
+        tets_(tets),
         used_(used),
         job_(job),
         representative_(representative),
@@ -57,10 +60,24 @@ class TouchingParts {
       for (std::int32_t &v : places[t]) v = representative_[std::size_t(v)];
       excluded[t] = has_repeated_vertex(places[t]) || !has_all(tets_[t]);
     }
-    const MeshView mesh{{nullptr, representative_.size()}, {}, places};
+    Array<Triangle> single(&job_.memory);
+    Array<std::int32_t> tet_of(&job_.memory);
+    const MeshView mesh{points_, {}, places};
     for_each_face(mesh, excluded, job_, [&](const FaceUse *first, const FaceUse *last) {
-      for (const FaceUse *use = first + 1; use < last; use++) parts_.join(tets_[first->tet()][0], tets_[use->tet()][0]);
+      for (const FaceUse *use = first + 1; use < last; use++) join(first->tet(), use->tet());
+      if (last - first > 1) return;
+      single.push_back(face_of(places[first->tet()], first->corner()));
+      tet_of.push_back(std::int32_t(first->tet()));
     });
+    for (const CrossedQuad &quad : find_crossed_quads(mesh, single, tet_of, job_))
+      for (const std::size_t t : quad.triangles) join(std::size_t(tet_of[quad.triangles[0]]), std::size_t(tet_of[t]));
+  }
+
+  void join(std::size_t t, std::size_t other) { parts_.join(tets_[t][0], tets_[other][0]); }
+
+  static Triangle face_of(const Tet &t, std::size_t corner) {
+    const int *face = tet_face[corner];
+    return {t[std::size_t(face[0])], t[std::size_t(face[1])], t[std::size_t(face[2])]};
   }
 
   /// Where several parts are at one place, the lowest point of each stands for that part's.
@@ -88,6 +105,7 @@ class TouchingParts {
     }
   }
 
+  Span<const Vec3> points_;
   Span<const Tet> tets_;
   Span<const std::uint8_t> used_;
   Job &job_;
@@ -97,9 +115,9 @@ class TouchingParts {
 
 }  // namespace
 
-std::int64_t keep_touching_parts_apart(Span<const Tet> tets, Span<const std::uint8_t> used, Job &job,
-                                       Array<std::int32_t> &representative) {
-  return TouchingParts(tets, used, job, representative).keep_apart();
+std::int64_t keep_touching_parts_apart(Span<const Vec3> points, Span<const Tet> tets, Span<const std::uint8_t> used,
+                                       Job &job, Array<std::int32_t> &representative) {
+  return TouchingParts(points, tets, used, job, representative).keep_apart();
 }
 
 }  // namespace tetlod

@@ -44,7 +44,8 @@ constexpr NumberOption kPolicyOptions[] = {
     {"on-flat", "boundary tets without volume: dropped"},
     {"on-inverted", "tets the other way round: turned"},
     {"on-duplicate", "tets given twice: dropped"},
-    {"on-overlap", "inner tets that overlap: kept; parts in contact: simplified each for itself"},
+    {"on-overlap",
+     "inner tets that overlap: kept; quads cut along both diagonals: along one; parts in contact: each for itself"},
     {"on-unused", "points that no tet uses: ignored"},
     {"on-nonfinite", "points without a finite value: ignored with their tets (coordinates have to be finite)"},
 };

@@ -50,6 +50,27 @@ Mesh kuhn_cube(int n) {
   return mesh;
 }
 
+Mesh cubes_in_five(int n) {
+  Mesh mesh = kuhn_cube(n);
+  const auto vertex = [&](int i, int j, int k) {
+    const Vec3 p = Vec3(i, j, k) / double(n);
+    for (std::size_t v = 0; v < mesh.points.size(); v++)
+      if (glm::length(mesh.points[v] - p) < 1e-9) return std::int32_t(v);
+    return std::int32_t(-1);
+  };
+  mesh.tets.clear();
+  for (int i = 0; i < n; i++)
+    for (int j = 0; j < n; j++)
+      for (int k = 0; k < n; k++) {
+        std::int32_t v[8];
+        for (int corner = 0; corner < 8; corner++)
+          v[corner] = vertex(i + (corner & 1), j + (corner >> 1 & 1), k + (corner >> 2));
+        for (const Tet &t : {Tet{0, 1, 2, 4}, Tet{3, 2, 1, 7}, Tet{5, 7, 1, 4}, Tet{6, 4, 2, 7}, Tet{1, 2, 4, 7}})
+          mesh.tets.push_back({v[t[0]], v[t[1]], v[t[2]], v[t[3]]});
+      }
+  return mesh;
+}
+
 Mesh slab_with_slits(int n, int layers) {
   const int middle = layers / 2;
   Mesh slab = kuhn_solid({n, n, layers}, [&](const Cell &c) {

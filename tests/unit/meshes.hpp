@@ -43,6 +43,10 @@ Mesh kuhn_solid(const Cell &cells, const std::function<bool(const Cell &)> &soli
 /// The cube [0, 1]^3 in n^3 cells.
 Mesh kuhn_cube(int n);
 
+/// [0, 1]^3 in n^3 cells, each cut in five tets, all in the same way: every quad between two cells is cut along both
+/// diagonals.
+Mesh cubes_in_five(int n);
+
 /// A slab of n x n x layers cells with slits in its middle, each one cell wide and next to nothing high.
 Mesh slab_with_slits(int n, int layers);
 

@@ -1,0 +1,227 @@
+#include "close_quads.hpp"
+
+#include <numeric>
+
+#include "crossed_quads.hpp"
+#include "predicates.hpp"
+#include "tet_complex.hpp"
+
+namespace tetlod {
+
+namespace {
+
+constexpr std::size_t longest_ring = 8, most_fresh = 2 * (longest_ring - 2);
+
+/// Tets, what takes their place, and the numbers of these.
+struct Way {
+  Few<std::int32_t, most_fresh> old;
+  Few<Tet, most_fresh> fresh;
+  Few<std::int32_t, most_fresh> number;
+};
+
+/// Whether the order of a, b, c, d is one of those that have the winding of t.
+bool winds_as(const Tet &t, const Tet &other) {
+  int inversions = 0;
+  std::size_t at[4];
+  for (std::size_t i = 0; i < 4; i++) at[i] = std::size_t(std::find(t.begin(), t.end(), other[i]) - t.begin());
+  for (std::size_t i = 0; i < 4; i++)
+    for (std::size_t j = i + 1; j < 4; j++) inversions += at[i] > at[j];
+  return inversions % 2 == 0;
+}
+
+class ClosedQuads : private TetComplex {
+ public:
+  ClosedQuads(const Original &original, const Boundary &boundary, Span<const CrossedQuad> quads, Job &job)
+      : TetComplex(job.memory), job_(job), number_(&job.memory), quads_(&job.memory), made_(&job.memory) {
+    points.assign(original.view.points.begin(), original.view.points.end());
+    take_tets(original);
+    for (const CrossedQuad &quad : quads) {
+      const std::size_t first = quad.triangles[0];
+      const Triangle &t = boundary.triangles[first];  // seen from the solid: from within the quad
+      const Tet between{t[0], t[1], t[2], quad.corners[0]};
+      quads_.push_back({std::int32_t(tets.size()), between});
+      tets.push_back(between);
+      number_.push_back(number_[std::size_t(boundary.tet_of[first])]);
+    }
+    connect(job);
+  }
+
+  /// One that does not may when others around it have.
+  void let_quads_give_way() {
+    const auto some_go = [&](const auto &goes) {
+      const auto end = std::remove_if(quads_.begin(), quads_.end(), goes);
+      const bool any = end != quads_.end();
+      quads_.erase(end, quads_.end());
+      return any;
+    };
+    while (some_go([&](const Quad &quad) { return gives_way(quad); }) ||
+           some_go([&](const Quad &quad) { return gives_way_after_another(quad); })) {
+    }
+  }
+
+  void give(Original &original) const {
+    Array<Tet> kept(&job_.memory);
+    Array<std::int32_t> numbers(&job_.memory);
+    kept.reserve(count());
+    numbers.reserve(count());
+    for (std::size_t t = 0; t < tets.size(); t++) {
+      job_.poll_at(t, 0.9);
+      if (!alive(std::int32_t(t))) continue;
+      kept.push_back(tets[t]);
+      numbers.push_back(number_[t]);
+    }
+    original.tets = std::move(kept);
+    original.tet_number = std::move(numbers);
+    original.view.tets = original.tets;
+  }
+
+ private:
+  void take_tets(const Original &original) {
+    tets.assign(original.view.tets.begin(), original.view.tets.end());
+    for (std::size_t t = 0; t < tets.size(); t++) {
+      job_.poll_at(t, 0.9);
+      const auto at = [&](std::size_t k) { return points[std::size_t(tets[t][k])]; };
+      if (orientation(at(0), at(1), at(2), at(3)) < 0) std::swap(tets[t][2], tets[t][3]);
+    }
+    number_ = original.tet_number;
+    if (!number_.empty()) return;
+    number_.resize(tets.size());
+    std::iota(number_.begin(), number_.end(), 0);
+  }
+
+  /// The tet in one. Once it is gone, with another, there may be others in its slot.
+  struct Quad {
+    std::int32_t slot;
+    Tet tet;
+  };
+  bool is_gone(const Quad &quad) const { return tets[std::size_t(quad.slot)] != quad.tet; }
+
+  /// visit(a, b) of each edge, until it returns true.
+  template <class Visit>
+  static bool any_edge(const Tet &t, const Visit &visit) {
+    for (std::size_t i = 0; i < 4; i++)
+      for (std::size_t j = i + 1; j < 4; j++)
+        if (visit(t[i], t[j])) return true;
+    return false;
+  }
+
+  bool gives_way(const Quad &quad) {
+    job_.poll(0.9);
+    if (is_gone(quad)) return true;
+    Way best;
+    double best_shape2 = least_shape * least_shape;
+    any_edge(quad.tet, [&](std::int32_t a, std::int32_t b) {
+      find_way(quad.slot, a, b, best, best_shape2);
+      return false;
+    });
+    if (!best.fresh.empty()) take(best);
+    return !best.fresh.empty();
+  }
+
+  /// Once tets around an edge nearby have.
+  bool gives_way_after_another(const Quad &quad) {
+    if (is_gone(quad)) return true;
+    const Array<std::int32_t> around = tets_around_edges(quad);
+    return std::any_of(around.begin(), around.end(), [&](std::int32_t t) {
+      return any_edge(Tet(tets[std::size_t(t)]), [&](std::int32_t a, std::int32_t b) {
+        Way way;
+        double shape2 = least_shape * least_shape;
+        find_way(t, a, b, way, shape2);
+        return !way.fresh.empty() && !way.old.has(quad.slot) && gives_way_after(way, quad);
+      });
+    });
+  }
+
+  /// If it does not, all is as it was, each tet in its slot.
+  bool gives_way_after(const Way &way, const Quad &quad) {
+    Way back;
+    for (const std::int32_t t : way.old) {
+      back.fresh.push(tets[std::size_t(t)]);
+      back.number.push(number_[std::size_t(t)]);
+    }
+    take(way);
+    for (const std::int32_t t : made_) back.old.push(t);
+    if (gives_way(quad)) return true;
+    take(back);
+    return false;
+  }
+
+  Array<std::int32_t> tets_around_edges(const Quad &quad) const {
+    Array<std::int32_t> all(&job_.memory);
+    any_edge(quad.tet, [&](std::int32_t a, std::int32_t b) {
+      Few<std::int32_t, longest_ring> around, ring;
+      if (TetComplex::ring(quad.slot, a, b, around, ring, [](std::int32_t) { return true; }))
+        all.insert(all.end(), around.begin(), around.end());
+      return false;
+    });
+    return all;
+  }
+
+  void take(const Way &way) {
+    replace_tets(way.old, way.fresh, made_);
+    number_.resize(tets.size());
+    for (std::size_t i = 0; i < made_.size(); i++) number_[std::size_t(made_[i])] = way.number[i];
+  }
+
+  /// A better one without the edge (a, b) of tet t: the one whose worst tet has the best shape.
+  void find_way(std::int32_t t, std::int32_t a, std::int32_t b, Way &best, double &best_shape2) const {
+    Few<std::int32_t, longest_ring> around, ring;
+    if (!TetComplex::ring(t, a, b, around, ring, [](std::int32_t) { return true; }) || ring.size() < 3) return;
+    if (!winds_as(tets[std::size_t(t)], {a, b, ring[0], ring[1]})) std::swap(a, b);  // t is flat
+    for (std::size_t apex = 0; apex < ring.size(); apex++) {
+      const Way way = fan(around, ring, a, b, apex);
+      const double shape2 = worst_shape2(way.fresh);
+      if (!(shape2 > best_shape2)) continue;
+      best = way;
+      best_shape2 = shape2;
+    }
+  }
+
+  /// The ring's triangles from one of its vertices, each with a tet to either side.
+  Way fan(const Few<std::int32_t, longest_ring> &around, const Few<std::int32_t, longest_ring> &ring, std::int32_t a,
+          std::int32_t b, std::size_t apex) const {
+    Way way;
+    for (const std::int32_t t : around) way.old.push(t);
+    const std::size_t n = ring.size();
+    for (std::size_t i = 1; i + 1 < n; i++) {
+      const std::int32_t p = ring[apex], q = ring[(apex + i) % n], r = ring[(apex + i + 1) % n];
+      way.fresh.push({p, q, r, b});
+      way.fresh.push({p, r, q, a});
+      for (int side = 0; side < 2; side++) way.number.push(number_[std::size_t(around[(apex + i) % n])]);
+    }
+    return way;
+  }
+
+  /// 0 if one is not positive.
+  double worst_shape2(Span<const Tet> fresh) const {
+    double worst = 1;
+    for (const Tet &t : fresh) {
+      const auto at = [&](std::size_t k) { return points[std::size_t(t[k])]; };
+      const bool is_positive = det(at(0), at(1), at(2), at(3)) > 0;
+      worst = std::min(worst, is_positive ? shape2(at(0), at(1), at(2), at(3)) : 0);
+    }
+    return worst;
+  }
+
+  Job &job_;
+  Array<std::int32_t> number_;  // of each tet, among the submitted ones
+  Array<Quad> quads_;           // whose tets have not given way
+  Array<std::int32_t> made_;
+};
+
+}  // namespace
+
+void close_crossed_quads(Job &job, Boundary &boundary, Original &original) {
+  const Array<CrossedQuad> quads = find_crossed_quads(original.view, boundary.triangles, boundary.tet_of, job);
+  if (quads.empty() || 4 * quads.size() == boundary.triangles.size()) return;  // some boundary has to be left
+  ClosedQuads closed(original, boundary, quads, job);
+  closed.let_quads_give_way();
+  closed.give(original);
+  Boundary anew(job.memory);
+  extract_boundary(original.view, job, anew, original.numbers());
+  anew.flat_tets += boundary.flat_tets;
+  anew.duplicate_tets += boundary.duplicate_tets;
+  boundary = std::move(anew);
+}
+
+}  // namespace tetlod

@@ -1,0 +1,156 @@
+// Quads that tets on their two sides cut along different diagonals.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "brute_force.hpp"
+#include "close_quads.hpp"
+#include "geometry.hpp"
+#include "meshes.hpp"
+#include "prepare.hpp"
+
+namespace tetlod {
+namespace {
+
+using namespace test;
+
+class CrossedQuads : public testing::Test {
+ protected:
+  Host host{2};
+  Options options;
+  Original original{host.memory};
+  Boundary boundary{host.memory};
+
+  void prepare(const Mesh &mesh) {
+    original = Original(host.memory);
+    boundary = Boundary(host.memory);
+    prepare_with_boundary(input_of(mesh), options, host.job, original, boundary);
+  }
+
+  double volume6(const Tet &t) const {
+    const auto at = [&](std::size_t k) { return original.view.points[std::size_t(t[k])]; };
+    return det(at(0), at(1), at(2), at(3));
+  }
+
+  /// Every face is used once or twice, and those used once are the boundary.
+  void expect_conforming() const {
+    std::map<Triangle, int> uses;
+    for (const Tet &t : original.view.tets)
+      for (std::size_t k = 0; k < 4; k++) {
+        Triangle face;
+        for (std::size_t i = 0, n = 0; i < 4; i++)
+          if (i != k) face[n++] = t[i];
+        std::sort(face.begin(), face.end());
+        uses[face]++;
+      }
+    std::size_t single = 0;
+    for (const auto &[face, count] : uses) {
+      EXPECT_LE(count, 2);
+      single += count == 1;
+    }
+    EXPECT_EQ(single, boundary.triangles.size());
+    EXPECT_EQ(boundary.tet_of.size(), boundary.triangles.size());
+  }
+
+  /// How many of the tets are nearly flat.
+  std::size_t expect_closed(const Mesh &mesh, std::size_t hull, double volume) {
+    prepare(mesh);
+    expect_conforming();
+    EXPECT_EQ(boundary.triangles.size(), hull);
+    double sum = 0;
+    std::size_t flat = 0;
+    for (const Tet &t : original.view.tets) {
+      sum += volume6(t) / 6;
+      flat += std::abs(volume6(t)) < 1e-12;
+    }
+    EXPECT_NEAR(sum / volume, 1, 1e-12);
+    const std::size_t tets = original.view.tets.size();
+    EXPECT_EQ(original.tet_number.size(), tets);
+    for (const std::int32_t number : original.tet_number) EXPECT_LT(std::size_t(number), mesh.tets.size());
+    return flat;
+  }
+};
+
+TEST_F(CrossedQuads, AreClosed) {
+  for (const int n : {2, 4, 7}) {
+    const Mesh mesh = cubes_in_five(n);
+    EXPECT_EQ(brute_boundary(mesh).size(), std::size_t(12 * n * n + 12 * n * n * (n - 1))) << "four in each inner quad";
+    EXPECT_LE(expect_closed(mesh, std::size_t(12 * n * n), 1), mesh.tets.size() / 1000) << n;
+  }
+}
+
+/// Where quads are no longer exactly plane, or bent, and whichever way tets wind.
+TEST_F(CrossedQuads, AreClosedWhereTheyAreNotPlane) {
+  const int n = 6;
+  Mesh turned = cubes_in_five(n), bent = turned;
+  transform(turned, [](const Vec3 &p) { return Vec3(0.8 * p.x - 0.6 * p.y, 0.6 * p.x + 0.8 * p.y, p.z + 0.3 * p.x); });
+  for (std::size_t t = 0; t < turned.tets.size(); t += 2) std::swap(turned.tets[t][0], turned.tets[t][1]);
+  EXPECT_LE(expect_closed(turned, 12 * n * n, 1), turned.tets.size() / 200);
+  transform(bent, [](const Vec3 &p) {
+    return Vec3((1 + p.x) * std::cos(p.y), (1 + p.x) * std::sin(p.y), p.z + 0.1 * std::sin(3 * p.x));
+  });
+  prepare(bent);
+  expect_conforming();
+  EXPECT_EQ(boundary.triangles.size(), std::size_t(12 * n * n));
+}
+
+TEST_F(CrossedQuads, AreClosedBetweenParts) {
+  Mesh mesh = kuhn_cube(2), other = mesh;
+  transform(other, [](const Vec3 &p) { return Vec3(1 + p.x, 1 - p.y, p.z); });
+  append(mesh, other);
+  for (const double ratio : {0.0, 0.1}) {
+    options.target_ratio = ratio;
+    EXPECT_EQ(expect_closed(mesh, 80, 2), 0U);
+    EXPECT_EQ(original.merged_points, 9);
+  }
+}
+
+/// Numbers are those of tets nearby.
+TEST_F(CrossedQuads, LeaveNumbersInPlace) {
+  const Mesh mesh = cubes_in_five(5);
+  prepare(mesh);
+  for (std::size_t t = 0; t < original.view.tets.size(); t++) {
+    const Tet &old = mesh.tets[std::size_t(original.tet_number[t])];
+    for (const std::int32_t v : original.view.tets[t])
+      EXPECT_LT(glm::length(mesh.points[std::size_t(v)] - mesh.points[std::size_t(old[0])]), 0.2 * std::sqrt(3) + 1e-9);
+  }
+}
+
+TEST_F(CrossedQuads, AreNoneWhereOverlapsAreErrors) {
+  options.on_overlap = policy_error;
+  const Mesh mesh = cubes_in_five(2);
+  prepare(mesh);
+  EXPECT_EQ(boundary.triangles.size(), brute_boundary(mesh).size());
+}
+
+/// A cavity of the shape of a tet; and a flat solid whose boundary is four triangles.
+TEST_F(CrossedQuads, AreNoCavitiesAndNoSolids) {
+  Mesh mesh = kuhn_cube(5);
+  mesh.tets.erase(mesh.tets.begin() + 6 * 62 + 1);  // in the middle
+  prepare(mesh);
+  EXPECT_EQ(boundary.triangles.size(), 300U + 4);
+  const Vec3 corners[] = {Vec3(3, 0, 0), Vec3(4, 0, 0), Vec3(3, 1, 0), Vec3(4, 1, 0.01)};
+  const auto first = std::int32_t(mesh.points.size());
+  Vec3 middle(0);
+  for (const Vec3 &p : corners) {
+    mesh.points.push_back(p);
+    middle += 0.25 * p;
+  }
+  mesh.points.push_back(middle);
+  mesh.scalars.resize(mesh.points.size(), 0);
+  for (int k = 0; k < 4; k++) {
+    Tet t{first, first + 1, first + 2, first + 3};
+    t[std::size_t(k)] = first + 4;
+    mesh.tets.push_back(t);
+  }
+  prepare(mesh);
+  EXPECT_EQ(boundary.triangles.size(), 300U + 4 + 4);
+  mesh.tets.erase(mesh.tets.begin(), mesh.tets.end() - 4);
+  prepare(mesh);
+  EXPECT_EQ(boundary.triangles.size(), 4U);
+}
+
+}  // namespace
+}  // namespace tetlod

@@ -1,0 +1,67 @@
+// Runs on meshes whose quads are cut along both diagonals.
+#include "whole_run.hpp"
+
+namespace tetlod {
+namespace {
+
+using namespace test;
+
+class CrossedQuadRuns : public WholeRun {
+ protected:
+  static constexpr int n = 9;
+  Mesh original = cubes_in_five(n);
+  CrossedQuadRuns() { set_scalars(original, waves); }
+
+  /// Of the cube, as if its quads were cut along one diagonal each.
+  void expect_cube() {
+    simplify(original);
+    const SurfaceFacts is = facts_of(mesh().boundary);
+    EXPECT_TRUE(is.closed);
+    EXPECT_EQ(is.components, 1);
+    EXPECT_EQ(is.euler, 2);
+    EXPECT_EQ(oriented_triangles(mesh().boundary), brute_boundary(copy_of_result()));
+    EXPECT_EQ(report().boundary_triangles_in, 12 * n * n);
+    EXPECT_EQ(report().tets_in, std::int64_t(original.tets.size()));
+    EXPECT_EQ(report().dropped_tets, 0);
+    for (const Tet &t : mesh().tets) {
+      const auto at = [&](std::size_t k) { return mesh().points[std::size_t(t[k])]; };
+      ASSERT_GT(glm::dot(glm::cross(at(1) - at(0), at(2) - at(0)), at(3) - at(0)), 0);
+    }
+    EXPECT_NEAR(volume_of(copy_of_result()), 1, as_published(options) ? 0.05 : 0.001);
+  }
+};
+
+TEST_F(CrossedQuadRuns, MeetTheSize) {
+  for (const auto effort : {effort_fast, effort_accurate})
+    for (const double ratio : {0.9, 0.5, 0.1, 0.03}) {
+      options.effort = effort;
+      options.target_ratio = ratio;
+      expect_cube();
+      EXPECT_NEAR(double(mesh().tets.size()) / double(original.tets.size()) / ratio, 1, 0.03);
+      EXPECT_LT(report().max_error, ratio > 0.2 ? 0.05 : 0.2) << ratio;
+    }
+}
+
+TEST_F(CrossedQuadRuns, HoldTheBound) {
+  options.target_ratio = 0;
+  for (const double bound : {0.1, 0.01}) {
+    options.max_error = bound;
+    expect_cube();
+    EXPECT_LE(report().max_error, bound);
+    EXPECT_LE(brute_largest_error(original, mesh()), bound * (1 + 1e-9));
+  }
+}
+
+TEST_F(CrossedQuadRuns, AsPublished) {
+  options.target_ratio = 0;
+  expect_cube();
+}
+
+TEST_F(CrossedQuadRuns, AreRefusedWhereOverlapsAreErrors) {
+  options.on_overlap = policy_error;
+  options.target_ratio = 0.5;
+  EXPECT_EQ(status(original), Status::mesh_intersecting);
+}
+
+}  // namespace
+}  // namespace tetlod
