@@ -129,6 +129,7 @@ class Inspection {
       return std::all_of(t.begin(), t.end(), [&](std::int64_t v) { return used_[std::size_t(v)]; });
     };
     tets_.erase(std::remove_if(tets_.begin(), tets_.end(), [&](const Corners &t) { return !has_all(t); }), tets_.end());
+    look_for_hanging(single_faces(tets_by_place()));
     const std::vector<std::int64_t> part = parts_of_points();
     std::map<std::pair<Point, std::int64_t>, std::int64_t> first;
     std::vector<std::int64_t> renamed(used_.size());
@@ -190,8 +191,7 @@ class Inspection {
     std::set<Face> taken;
     for (auto low = single.begin(); low != single.end(); ++low)
       for (auto next = std::next(low); next != single.end(); ++next) {
-        const auto [a, b, c] = low->first;
-        const std::int64_t d = next->first[2];
+        const std::int64_t a = low->first[0], b = low->first[1], c = low->first[2], d = next->first[2];
         if (next->first[0] != a || next->first[1] != b) break;
         const std::array<Face, 4> quad = {Face{b, c, d}, Face{a, c, d}, next->first, low->first};
         const bool crossed =
@@ -287,7 +287,49 @@ class Inspection {
         if (side_of(tet) < 0) std::swap(face[1], face[2]);
         facts_.boundary.push_back(face);
       }
+    look_for_hanging(facts_.boundary);
     if (repairs_.closes_quads) close_quads();
+  }
+
+  void look_for_hanging(const std::vector<Face> &faces) {
+    if (repairs_.takes_contacts || repairs_.closes_quads) facts_.hanging = facts_.hanging || any_hanging(faces);
+  }
+
+  std::vector<Face> single_faces(const std::vector<Corners> &tets) const {
+    std::vector<Face> faces;
+    for (const auto &[face, users] : users_of(tets))
+      if (users.size() == 1 && face[0] >= 0) faces.push_back(face);
+    return faces;
+  }
+
+  /// Two edges from one vertex with the same direction.
+  bool any_hanging(const std::vector<Face> &faces) const {
+    double largest = 0;
+    std::map<std::int64_t, std::set<std::int64_t>> edges;
+    for (const Face &face : faces)
+      for (std::size_t k = 0; k < 3; k++) {
+        edges[face[k]].insert({face[(k + 1) % 3], face[(k + 2) % 3]});
+        for (const double x : at(face[k])) largest = std::max(largest, std::abs(x));
+      }
+    for (const auto &[v, ends] : edges)
+      for (const std::int64_t a : ends)
+        for (const std::int64_t b : ends)
+          if (a != b && has_one_direction(at(v), at(a), at(b), 1e-6 * largest)) return true;
+    return false;
+  }
+
+  /// More or less: it does not matter where there are none.
+  static bool has_one_direction(const Point &from, const Point &a, const Point &b, double rounding) {
+    double u[3], w[3], dot = 0, uu = 0, ww = 0;
+    for (std::size_t i = 0; i < 3; i++) {
+      u[i] = a[i] - from[i];
+      w[i] = b[i] - from[i];
+      dot += u[i] * w[i];
+      uu += u[i] * u[i];
+      ww += w[i] * w[i];
+    }
+    const double off = std::hypot(u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2], u[0] * w[1] - u[1] * w[0]);
+    return dot >= 0 && off <= std::min(rounding * std::sqrt(std::max(uu, ww)), 2e-3 * std::sqrt(uu * ww));
   }
 
   void close_quads() {

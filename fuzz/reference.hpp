@@ -23,6 +23,9 @@ struct Facts {
   /// The sizes of coordinates differ by more than 1e90: products of three leave the range of doubles, and what is flat
   /// cannot be told.
   bool wide = false;
+  /// Vertices lie on edges, also of other parts: the tets at these are divided, and parts joined, where that is
+  /// repaired. What comes of it is not found out again.
+  bool hanging = false;
 };
 
 /// What a run does with a mesh.

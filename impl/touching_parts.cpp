@@ -6,6 +6,8 @@
 #include "crossed_quads.hpp"
 #include "disjoint_sets.hpp"
 #include "face_sweep.hpp"
+#include "hanging_vertices.hpp"
+#include "predicates.hpp"
 
 namespace tetlod {
 
@@ -71,13 +73,19 @@ class TouchingParts {
     });
     for (const CrossedQuad &quad : find_crossed_quads(mesh, single, tet_of, job_))
       for (const std::size_t t : quad.triangles) join(std::size_t(tet_of[quad.triangles[0]]), std::size_t(tet_of[t]));
+    for (const DividedTriangle &pair : find_divided_triangles(mesh, single, job_))
+      join(std::size_t(tet_of[std::size_t(pair.coarse)]), std::size_t(tet_of[std::size_t(pair.fine)]));
   }
 
   void join(std::size_t t, std::size_t other) { parts_.join(tets_[t][0], tets_[other][0]); }
 
-  static Triangle face_of(const Tet &t, std::size_t corner) {
+  /// Seen from outside.
+  Triangle face_of(const Tet &t, std::size_t corner) const {
     const int *face = tet_face[corner];
-    return {t[std::size_t(face[0])], t[std::size_t(face[1])], t[std::size_t(face[2])]};
+    const auto at = [&](std::size_t k) { return points_[std::size_t(t[k])]; };
+    Triangle f{t[std::size_t(face[0])], t[std::size_t(face[1])], t[std::size_t(face[2])]};
+    if (orientation(at(0), at(1), at(2), at(3)) < 0) std::swap(f[1], f[2]);
+    return f;
   }
 
   /// Where several parts are at one place, the lowest point of each stands for that part's.

@@ -71,6 +71,36 @@ Mesh cubes_in_five(int n) {
   return mesh;
 }
 
+Mesh refined_cubes(int n, const std::function<bool(const Cell &)> &is_fine) {
+  Mesh mesh;
+  std::map<Cell, std::int32_t> vertex;  // of a lattice twice as fine
+  const auto add = [&](const Mesh &cell, const Cell &low, int step) {
+    for (const Tet &t : cell.tets) {
+      Tet tet;
+      for (std::size_t k = 0; k < 4; k++) {
+        const Vec3 &p = cell.points[std::size_t(t[k])];
+        const Cell at{low[0] + step * int(p.x), low[1] + step * int(p.y), low[2] + step * int(p.z)};
+        const auto [found, is_new] = vertex.emplace(at, std::int32_t(mesh.points.size()));
+        if (is_new) mesh.points.push_back(Vec3(at[0], at[1], at[2]) / double(2 * n));
+        tet[k] = found->second;
+      }
+      mesh.tets.push_back(tet);
+    }
+  };
+  const Mesh cell = kuhn_cube(1);
+  for (int i = 0; i < 2 * n; i += 2)
+    for (int j = 0; j < 2 * n; j += 2)
+      for (int k = 0; k < 2 * n; k += 2) {
+        if (!is_fine({i / 2, j / 2, k / 2})) {
+          add(cell, {i, j, k}, 2);
+          continue;
+        }
+        for (int part = 0; part < 8; part++) add(cell, {i + (part & 1), j + (part >> 1 & 1), k + (part >> 2)}, 1);
+      }
+  mesh.scalars.assign(mesh.points.size(), 0);
+  return mesh;
+}
+
 Mesh slab_with_slits(int n, int layers) {
   const int middle = layers / 2;
   Mesh slab = kuhn_solid({n, n, layers}, [&](const Cell &c) {

@@ -1,4 +1,4 @@
-// Runs on meshes whose quads are cut along both diagonals.
+// Runs on meshes that do not conform: quads are cut along both diagonals, or vertices hang on edges.
 #include "whole_run.hpp"
 
 namespace tetlod {
@@ -6,11 +6,11 @@ namespace {
 
 using namespace test;
 
-class CrossedQuadRuns : public WholeRun {
+class NonconformingRuns : public WholeRun {
  protected:
   static constexpr int n = 9;
   Mesh original = cubes_in_five(n);
-  CrossedQuadRuns() { set_scalars(original, waves); }
+  NonconformingRuns() { set_scalars(original, waves); }
 
   /// Of the cube, as if its quads were cut along one diagonal each.
   void expect_cube() {
@@ -20,7 +20,6 @@ class CrossedQuadRuns : public WholeRun {
     EXPECT_EQ(is.components, 1);
     EXPECT_EQ(is.euler, 2);
     EXPECT_EQ(oriented_triangles(mesh().boundary), brute_boundary(copy_of_result()));
-    EXPECT_EQ(report().boundary_triangles_in, 12 * n * n);
     EXPECT_EQ(report().tets_in, std::int64_t(original.tets.size()));
     EXPECT_EQ(report().dropped_tets, 0);
     for (const Tet &t : mesh().tets) {
@@ -31,7 +30,7 @@ class CrossedQuadRuns : public WholeRun {
   }
 };
 
-TEST_F(CrossedQuadRuns, MeetTheSize) {
+TEST_F(NonconformingRuns, MeetTheSize) {
   for (const auto effort : {effort_fast, effort_accurate})
     for (const double ratio : {0.9, 0.5, 0.1, 0.03}) {
       options.effort = effort;
@@ -42,7 +41,7 @@ TEST_F(CrossedQuadRuns, MeetTheSize) {
     }
 }
 
-TEST_F(CrossedQuadRuns, HoldTheBound) {
+TEST_F(NonconformingRuns, HoldTheBound) {
   options.target_ratio = 0;
   for (const double bound : {0.1, 0.01}) {
     options.max_error = bound;
@@ -52,12 +51,32 @@ TEST_F(CrossedQuadRuns, HoldTheBound) {
   }
 }
 
-TEST_F(CrossedQuadRuns, AsPublished) {
+TEST_F(NonconformingRuns, AsPublished) {
   options.target_ratio = 0;
+  expect_cube();
+  EXPECT_EQ(report().boundary_triangles_in, 12 * n * n);
+}
+
+/// A third of the cells is fine: the coarse ones are divided where they are next to one, before anything else.
+TEST_F(NonconformingRuns, OfMeshesThatAreRefinedInPlaces) {
+  original = refined_cubes(6, [](const Cell &c) { return (c[0] * c[0] + 2 * c[1] + 3 * c[2]) % 3 == 0; });
+  set_scalars(original, waves);
+  for (const auto effort : {effort_fast, effort_accurate})
+    for (const double ratio : {0.6, 0.1}) {
+      options.effort = effort;
+      options.target_ratio = ratio;
+      expect_cube();
+      EXPECT_NEAR(double(mesh().tets.size()) / double(original.tets.size()) / ratio, 1, 0.03);
+    }
+  options.target_ratio = 0;
+  options.max_error = 0.02;
+  expect_cube();
+  EXPECT_LE(brute_largest_error(original, mesh()), 0.02 * (1 + 1e-9));
+  options.max_error = 0;
   expect_cube();
 }
 
-TEST_F(CrossedQuadRuns, AreRefusedWhereOverlapsAreErrors) {
+TEST_F(NonconformingRuns, AreRefusedWhereOverlapsAreErrors) {
   options.on_overlap = policy_error;
   options.target_ratio = 0.5;
   EXPECT_EQ(status(original), Status::mesh_intersecting);

@@ -1,0 +1,263 @@
+#include "hanging_vertices.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numeric>
+#include <tuple>
+
+#include "geometry.hpp"
+#include "predicates.hpp"
+#include "whole_arrays.hpp"
+
+namespace tetlod {
+
+namespace {
+
+/// It lies on the edge, but for rounding, and has one of its own to the end `from`.
+struct HangingVertex {
+  std::int32_t vertex, from, to;
+};
+
+/// A corner of a triangle: its two other vertices.
+struct Corner {
+  std::int32_t next, last, triangle;
+};
+
+/// Those at each vertex.
+class CornersOfVertices {
+ public:
+  CornersOfVertices(std::size_t vertices, Span<const Triangle> triangles, Job &job)
+      : begin_(vertices + 1, 0, &job.memory), corners_(3 * triangles.size(), Corner{}, &job.memory) {
+    for (const Triangle &t : triangles)
+      for (const std::int32_t v : t) begin_[std::size_t(v) + 1]++;
+    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+    Array<std::uint32_t> place(begin_.begin(), begin_.end() - 1, &job.memory);
+    for (std::size_t i = 0; i < triangles.size(); i++)
+      for (std::size_t k = 0; k < 3; k++) {
+        const Triangle &t = triangles[i];
+        corners_[place[std::size_t(t[k])]++] = {t[(k + 1) % 3], t[(k + 2) % 3], std::int32_t(i)};
+      }
+  }
+  Span<const Corner> of(std::size_t v) const { return {corners_.data() + begin_[v], begin_[v + 1] - begin_[v]}; }
+
+ private:
+  Array<std::uint32_t> begin_;
+  Array<Corner> corners_;
+};
+
+/// Coordinates may be of single precision.
+double rounding_of(const MeshView &mesh, Span<const Triangle> triangles) {
+  double largest = 0;
+  for (const Triangle &t : triangles)
+    for (const std::int32_t v : t)
+      for (int k = 0; k < 3; k++) largest = std::max(largest, std::abs(mesh.points[std::size_t(v)][k]));
+  return 1e-7 * largest;
+}
+
+/// Whether the tip of the shorter of two ways lies on the longer.
+bool lies_on(const Vec3 &shorter, const Vec3 &longer, double rounding) {
+  constexpr double most = 1e-3;  // of the shorter one
+  const double off2 = length2(glm::cross(shorter, longer)), length2_of_longer = length2(longer);
+  return off2 <= rounding * rounding * length2_of_longer &&
+         off2 <= most * most * length2(shorter) * length2_of_longer && glm::dot(shorter, longer) > 0;
+}
+
+class HangingVertices {
+ public:
+  HangingVertices(const MeshView &mesh, Span<const Triangle> triangles, Job &job)
+      : mesh_(mesh),
+        triangles_(triangles),
+        job_(job),
+        corners_(mesh.points.size(), triangles, job),
+        rounding_(rounding_of(mesh, triangles)) {}
+
+  Array<HangingVertex> find() const {
+    constexpr std::size_t most_triangles = 256;
+    Array<HangingVertex> found(&job_.memory);
+    for (std::size_t v = 0; v < mesh_.points.size(); v++) {
+      job_.poll_at(v, 0.9);
+      const Span<const Corner> at = corners_.of(v);
+      for (std::size_t i = 1; i < at.size() && at.size() <= most_triangles; i++)
+        for (std::size_t j = 0; j < i; j++) look_at(std::int32_t(v), at[i], at[j], found);
+    }
+    return found;
+  }
+
+  /// For each edge with one hanging vertex, that has edges to both ends, and the triangles on either side of it.
+  Array<DividedTriangle> find_divided_triangles() const {
+    Array<HangingVertex> hanging = find();
+    for (HangingVertex &h : hanging)
+      if (h.from > h.to) std::swap(h.from, h.to);
+    std::sort(hanging.begin(), hanging.end(), [](const HangingVertex &a, const HangingVertex &b) {
+      return std::tie(a.from, a.to, a.vertex) < std::tie(b.from, b.to, b.vertex);
+    });
+    Array<std::uint8_t> edges(triangles_.size(), 0, &job_.memory);
+    Array<DividedTriangle> pairs(&job_.memory), divided(&job_.memory);
+    for (std::size_t i = 1; i < hanging.size(); i++) {
+      const HangingVertex &h = hanging[i], &before = hanging[i - 1];
+      if (h.from != before.from || h.to != before.to || h.vertex != before.vertex) continue;  // not from both ends
+      for (const bool side : {false, true}) {
+        const DividedTriangle pair{triangle(h.from, h.to, side), triangle(h.from, h.vertex, !side)};
+        if (pair.coarse < 0 || pair.fine < 0 || !lie_on_one_another(pair)) continue;
+        edges[std::size_t(pair.coarse)]++;
+        pairs.push_back(pair);
+      }
+    }
+    std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(divided),
+                 [&](const DividedTriangle &pair) { return edges[std::size_t(pair.coarse)] == 3; });
+    return divided;
+  }
+
+ private:
+  Vec3 way(std::int32_t from, std::int32_t to) const {
+    return mesh_.points[std::size_t(to)] - mesh_.points[std::size_t(from)];
+  }
+
+  /// At two edges of vertex v.
+  void look_at(std::int32_t v, const Corner &one, const Corner &other, Array<HangingVertex> &found) const {
+    std::int32_t near = one.next, far = other.next;
+    if (near == far || near == other.last || far == one.last) return;  // of one triangle
+    if (length2(way(v, near)) > length2(way(v, far))) std::swap(near, far);
+    if (lies_on(way(v, near), way(v, far), rounding_)) found.push_back({near, v, far});
+  }
+
+  /// With the half-edge, or, back, with the one that runs the other way; -1: there is none.
+  std::int32_t triangle(std::int32_t from, std::int32_t to, bool back) const {
+    for (const Corner &corner : corners_.of(std::size_t(from)))
+      if ((back ? corner.last : corner.next) == to) return corner.triangle;
+    return -1;
+  }
+
+  /// Back to back, but for rounding.
+  bool lie_on_one_another(const DividedTriangle &pair) const {
+    constexpr double rounding = 1e-6;
+    const auto normal = [&](std::int32_t triangle) {
+      const Triangle &t = triangles_[std::size_t(triangle)];
+      return glm::cross(way(t[0], t[1]), way(t[0], t[2]));
+    };
+    const Vec3 n = normal(pair.coarse), m = normal(pair.fine);
+    return glm::dot(n, m) < 0 && length2(glm::cross(n, m)) <= rounding * rounding * length2(n) * length2(m);
+  }
+
+  const MeshView &mesh_;
+  Span<const Triangle> triangles_;
+  Job &job_;
+  CornersOfVertices corners_;
+  double rounding_;
+};
+
+/// Tets that are divided one by one.
+class Division {
+ public:
+  Division(const Original &original, Span<const HangingVertex> hanging, Job &job)
+      : points_(original.view.points),
+        job_(job),
+        tets_(original.view.tets.begin(), original.view.tets.end(), &job.memory),
+        number_(original.tet_number, &job.memory),
+        list_of_(points_.size(), -1, &job.memory),
+        lists_(&job.memory) {
+    if (number_.empty()) {
+      number_.resize(tets_.size());
+      std::iota(number_.begin(), number_.end(), 0);
+    }
+    for (const HangingVertex &h : hanging)
+      if (std::int32_t &list = list_of_[std::size_t(h.from)]; list < 0) {
+        list = std::int32_t(lists_.size());
+        lists_.emplace_back();
+      }
+    for (std::size_t t = 0; t < tets_.size(); t++) {
+      job_.poll_at(t, 0.9);
+      enter(t);
+    }
+  }
+
+  /// Whether there are such tets, and none turns over.
+  bool divide(const HangingVertex &h) {
+    job_.poll(0.9);
+    Array<std::int32_t> at_edge(&job_.memory);
+    for (const std::int32_t t : lists_[std::size_t(list_of_[std::size_t(h.from)])])
+      if (has(t, h.from) && has(t, h.to) && !contains(at_edge, t)) at_edge.push_back(t);
+    if (at_edge.empty() ||
+        !std::all_of(at_edge.begin(), at_edge.end(), [&](std::int32_t t) { return may_divide(t, h); }))
+      return false;
+    for (const std::int32_t t : at_edge) {
+      tets_.push_back(with(t, h.from, h.vertex));
+      number_.push_back(number_[std::size_t(t)]);
+      tets_[std::size_t(t)] = with(t, h.to, h.vertex);
+      enter(std::size_t(t));
+      enter(tets_.size() - 1);
+    }
+    return true;
+  }
+
+  void give(Original &original) {
+    original.tets = std::move(tets_);
+    original.tet_number = std::move(number_);
+    original.view.tets = original.tets;
+  }
+
+ private:
+  static bool contains(Span<const std::int32_t> some, std::int32_t t) {
+    return std::find(some.begin(), some.end(), t) != some.end();
+  }
+  bool has(std::int32_t t, std::int32_t v) const {
+    const Tet &tet = tets_[std::size_t(t)];
+    return std::find(tet.begin(), tet.end(), v) != tet.end();
+  }
+
+  /// In the lists of those of its vertices that have one.
+  void enter(std::size_t t) {
+    for (const std::int32_t v : tets_[t])
+      if (const std::int32_t list = list_of_[std::size_t(v)]; list >= 0)
+        lists_[std::size_t(list)].push_back(std::int32_t(t));
+  }
+
+  Tet with(std::int32_t t, std::int32_t gone, std::int32_t instead) const {
+    Tet tet = tets_[std::size_t(t)];
+    std::replace(tet.begin(), tet.end(), gone, instead);
+    return tet;
+  }
+
+  bool may_divide(std::int32_t t, const HangingVertex &h) const {
+    const int side = side_of(tets_[std::size_t(t)]);
+    return !has(t, h.vertex) && side_of(with(t, h.from, h.vertex)) == side && side_of(with(t, h.to, h.vertex)) == side;
+  }
+
+  int side_of(const Tet &t) const {
+    const auto at = [&](std::size_t k) { return points_[std::size_t(t[k])]; };
+    return orientation(at(0), at(1), at(2), at(3));
+  }
+
+  Span<const Vec3> points_;
+  Job &job_;
+  Array<Tet> tets_;
+  Array<std::int32_t> number_;        // of each, among the submitted ones
+  Array<std::int32_t> list_of_;       // of each vertex; -1: it needs none
+  Array<Array<std::int32_t>> lists_;  // of tets that have, or had, the vertex
+};
+
+}  // namespace
+
+Array<DividedTriangle> find_divided_triangles(const MeshView &mesh, Span<const Triangle> triangles, Job &job) {
+  return HangingVertices(mesh, triangles, job).find_divided_triangles();
+}
+
+void divide_at_hanging_vertices(Job &job, Boundary &boundary, Original &original) {
+  for (bool any = true; any;) {
+    const Array<HangingVertex> hanging = HangingVertices(original.view, boundary.triangles, job).find();
+    if (hanging.empty()) return;
+    Division division(original, hanging, job);
+    any = false;
+    for (const HangingVertex &h : hanging) any = division.divide(h) || any;
+    if (!any) return;
+    division.give(original);
+    Boundary anew(job.memory);
+    extract_boundary(original.view, job, anew, original.numbers());
+    anew.flat_tets += boundary.flat_tets;
+    anew.duplicate_tets += boundary.duplicate_tets;
+    boundary = std::move(anew);
+  }
+}
+
+}  // namespace tetlod

@@ -1,0 +1,120 @@
+// Meshes that are refined in places: vertices hang on the edges of coarser neighbours.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "brute_force.hpp"
+#include "geometry.hpp"
+#include "hanging_vertices.hpp"
+#include "meshes.hpp"
+#include "prepare.hpp"
+
+namespace tetlod {
+namespace {
+
+using namespace test;
+
+class HangingVertices : public testing::Test {
+ protected:
+  Host host{2};
+  Options options;
+  Original original{host.memory};
+  Boundary boundary{host.memory};
+
+  void prepare(const Mesh &mesh) {
+    original = Original(host.memory);
+    boundary = Boundary(host.memory);
+    prepare_with_boundary(input_of(mesh), options, host.job, original, boundary);
+  }
+
+  /// A solid of this volume, closed, with one surface, without slits; tets wind one way, nearly all with a volume.
+  void expect_conforming(const Mesh &mesh, double volume) {
+    prepare(mesh);
+    Mesh is = mesh;
+    is.tets.assign(original.view.tets.begin(), original.view.tets.end());
+    EXPECT_EQ(oriented_triangles(boundary.triangles), brute_boundary(is));
+    const SurfaceFacts facts = facts_of(boundary.triangles);
+    EXPECT_TRUE(facts.closed);
+    EXPECT_EQ(facts.components, 1);
+    EXPECT_EQ(facts.euler, 2);
+    EXPECT_EQ(facts.nonmanifold_edges, 0);
+    double sum = 0;
+    std::size_t flat = 0;
+    for (std::size_t t = 0; t < is.tets.size(); t++) {
+      const auto at = [&](std::size_t k) { return is.points[std::size_t(is.tets[t][k])]; };
+      const double volume6 = det(at(0), at(1), at(2), at(3));
+      sum += volume6 / 6;
+      flat += volume6 < 1e-12;
+    }
+    EXPECT_NEAR(sum / volume, 1, 1e-9);
+    EXPECT_LE(flat, is.tets.size() / 500);
+    EXPECT_LT(length2(enclosed(is)), 1e-20);
+  }
+
+  /// The area vectors of a closed surface add up to nothing.
+  Vec3 enclosed(const Mesh &mesh) const {
+    Vec3 sum(0);
+    for (const Triangle &t : boundary.triangles)
+      sum +=
+          area_vector(mesh.points[std::size_t(t[0])], mesh.points[std::size_t(t[1])], mesh.points[std::size_t(t[2])]);
+    return sum;
+  }
+};
+
+TEST_F(HangingVertices, AreNoneInSoundMeshes) {
+  for (unsigned seed = 1; seed < 8; seed++) {
+    const Mesh mesh = random_solid(4, 0.5, seed);
+    prepare(mesh);
+    ASSERT_EQ(original.view.tets.size(), mesh.tets.size());
+    for (std::size_t t = 0; t < mesh.tets.size(); t++) EXPECT_EQ(original.view.tets[t], mesh.tets[t]);
+  }
+}
+
+TEST_F(HangingVertices, OfOneFineCell) {
+  for (const Cell &fine : {Cell{1, 1, 1}, Cell{0, 1, 1}, Cell{0, 0, 0}})
+    expect_conforming(refined_cubes(3, [&](const Cell &c) { return c == fine; }), 1);
+}
+
+TEST_F(HangingVertices, OfCellsAnywhere) {
+  std::mt19937_64 random(5);
+  for (int round = 0; round < 6; round++) {
+    std::bernoulli_distribution is_fine(0.1 + 0.15 * round);
+    Mesh mesh = refined_cubes(4, [&](const Cell &) { return is_fine(random); });
+    expect_conforming(mesh, 1);
+    transform(mesh, [](const Vec3 &p) {  // coordinates of single precision, in no plane of the axes
+      return Vec3(float(3 * p.x - 0.7 * p.y), float(2 * p.y + 0.3 * p.z + 10), float(p.z - 0.2 * p.x));
+    });
+    prepare(mesh);
+    EXPECT_EQ(facts_of(boundary.triangles).components, 1) << round;
+    EXPECT_EQ(facts_of(boundary.triangles).euler, 2) << round;
+  }
+}
+
+/// Each cell has points of its own, as some programs write them: parts that share faces, or halves of them, are one.
+TEST_F(HangingVertices, OfCellsWithPointsOfTheirOwn) {
+  std::mt19937_64 random(9);
+  std::bernoulli_distribution is_fine(0.4);
+  const Mesh mesh = refined_cubes(3, [&](const Cell &) { return is_fine(random); });
+  Mesh apart;
+  for (const Tet &t : mesh.tets) {
+    const auto first = std::int32_t(apart.points.size());
+    for (const std::int32_t v : t) apart.points.push_back(mesh.points[std::size_t(v)]);
+    apart.tets.push_back({first, first + 1, first + 2, first + 3});
+  }
+  apart.scalars.assign(apart.points.size(), 0);
+  for (const double ratio : {0.0, 0.1}) {
+    options.target_ratio = ratio;
+    expect_conforming(apart, 1);
+    EXPECT_EQ(original.merged_points, std::int64_t(apart.points.size() - mesh.points.size()));
+  }
+}
+
+TEST_F(HangingVertices, StayWhereOverlapsAreErrors) {
+  options.on_overlap = policy_error;
+  const Mesh mesh = refined_cubes(2, [](const Cell &c) { return c == Cell{0, 0, 0}; });
+  prepare(mesh);
+  EXPECT_EQ(original.view.tets.size(), mesh.tets.size());
+}
+
+}  // namespace
+}  // namespace tetlod
