@@ -1,7 +1,5 @@
 #include "close_quads.hpp"
 
-#include <numeric>
-
 #include "crossed_quads.hpp"
 #include "predicates.hpp"
 #include "tet_complex.hpp"
@@ -31,17 +29,18 @@ bool winds_as(const Tet &t, const Tet &other) {
 
 class ClosedQuads : private TetComplex {
  public:
-  ClosedQuads(const Original &original, const Boundary &boundary, Span<const CrossedQuad> quads, Job &job)
-      : TetComplex(job.memory), job_(job), number_(&job.memory), quads_(&job.memory), made_(&job.memory) {
-    points.assign(original.view.points.begin(), original.view.points.end());
-    take_tets(original);
+  ClosedQuads(NumberedTets &&solid, Span<const CrossedQuad> quads, Job &job)
+      : TetComplex(job.memory), job_(job), number_(std::move(solid.number)), quads_(&job.memory), made_(&job.memory) {
+    points.assign(solid.points.begin(), solid.points.end());
+    tets = std::move(solid.tets);
+    turn_upright();
     for (const CrossedQuad &quad : quads) {
       const std::size_t first = quad.triangles[0];
-      const Triangle &t = boundary.triangles[first];  // seen from the solid: from within the quad
+      const Triangle &t = solid.boundary.triangles[first];  // seen from the solid: from within the quad
       const Tet between{t[0], t[1], t[2], quad.corners[0]};
       quads_.push_back({std::int32_t(tets.size()), between});
       tets.push_back(between);
-      number_.push_back(number_[std::size_t(boundary.tet_of[first])]);
+      number_.push_back(number_[std::size_t(solid.boundary.tet_of[first])]);
     }
     connect(job);
   }
@@ -59,34 +58,24 @@ class ClosedQuads : private TetComplex {
     }
   }
 
-  void give(Original &original) const {
-    Array<Tet> kept(&job_.memory);
-    Array<std::int32_t> numbers(&job_.memory);
-    kept.reserve(count());
-    numbers.reserve(count());
+  void give(NumberedTets &solid) const {
+    solid.tets.clear();
+    solid.number.clear();
     for (std::size_t t = 0; t < tets.size(); t++) {
       job_.poll_at(t, 0.9);
       if (!alive(std::int32_t(t))) continue;
-      kept.push_back(tets[t]);
-      numbers.push_back(number_[t]);
+      solid.tets.push_back(tets[t]);
+      solid.number.push_back(number_[t]);
     }
-    original.tets = std::move(kept);
-    original.tet_number = std::move(numbers);
-    original.view.tets = original.tets;
   }
 
  private:
-  void take_tets(const Original &original) {
-    tets.assign(original.view.tets.begin(), original.view.tets.end());
+  void turn_upright() {
     for (std::size_t t = 0; t < tets.size(); t++) {
       job_.poll_at(t, 0.9);
       const auto at = [&](std::size_t k) { return points[std::size_t(tets[t][k])]; };
       if (orientation(at(0), at(1), at(2), at(3)) < 0) std::swap(tets[t][2], tets[t][3]);
     }
-    number_ = original.tet_number;
-    if (!number_.empty()) return;
-    number_.resize(tets.size());
-    std::iota(number_.begin(), number_.end(), 0);
   }
 
   /// The tet in one. Once it is gone, with another, there may be others in its slot.
@@ -211,17 +200,14 @@ class ClosedQuads : private TetComplex {
 
 }  // namespace
 
-void close_crossed_quads(Job &job, Boundary &boundary, Original &original) {
-  const Array<CrossedQuad> quads = find_crossed_quads(original.view, boundary.triangles, boundary.tet_of, job);
-  if (quads.empty() || 4 * quads.size() == boundary.triangles.size()) return;  // some boundary has to be left
-  ClosedQuads closed(original, boundary, quads, job);
+bool close_crossed_quads(Job &job, NumberedTets &solid) {
+  const Boundary &boundary = solid.boundary;
+  const Array<CrossedQuad> quads = find_crossed_quads(solid.view(), boundary.triangles, boundary.tet_of, job);
+  if (quads.empty() || 4 * quads.size() == boundary.triangles.size()) return false;
+  ClosedQuads closed(std::move(solid), quads, job);
   closed.let_quads_give_way();
-  closed.give(original);
-  Boundary anew(job.memory);
-  extract_boundary(original.view, job, anew, original.numbers());
-  anew.flat_tets += boundary.flat_tets;
-  anew.duplicate_tets += boundary.duplicate_tets;
-  boundary = std::move(anew);
+  closed.give(solid);
+  return true;
 }
 
 }  // namespace tetlod

@@ -14,11 +14,6 @@ namespace tetlod {
 
 namespace {
 
-/// It lies on the edge, but for rounding, and has one of its own to the end `from`.
-struct HangingVertex {
-  std::int32_t vertex, from, to;
-};
-
 /// A corner of a triangle: its two other vertices.
 struct Corner {
   std::int32_t next, last, triangle;
@@ -98,8 +93,8 @@ class HangingVertices {
       const HangingVertex &h = hanging[i], &before = hanging[i - 1];
       if (h.from != before.from || h.to != before.to || h.vertex != before.vertex) continue;  // not from both ends
       for (const bool side : {false, true}) {
-        const DividedTriangle pair{triangle(h.from, h.to, side), triangle(h.from, h.vertex, !side)};
-        if (pair.coarse < 0 || pair.fine < 0 || !lie_on_one_another(pair)) continue;
+        const DividedTriangle pair = triangles_at(h, side);
+        if (!lie_on_one_another(pair)) continue;
         edges[std::size_t(pair.coarse)]++;
         pairs.push_back(pair);
       }
@@ -119,7 +114,15 @@ class HangingVertices {
     std::int32_t near = one.next, far = other.next;
     if (near == far || near == other.last || far == one.last) return;  // of one triangle
     if (length2(way(v, near)) > length2(way(v, far))) std::swap(near, far);
-    if (lies_on(way(v, near), way(v, far), rounding_)) found.push_back({near, v, far});
+    const HangingVertex hanging{near, v, far};
+    if (lies_on(way(v, near), way(v, far), rounding_) &&
+        (lie_on_one_another(triangles_at(hanging, false)) || lie_on_one_another(triangles_at(hanging, true))))
+      found.push_back(hanging);
+  }
+
+  /// On one side of the edges: what is outside of the one solid is inside of the other.
+  DividedTriangle triangles_at(const HangingVertex &h, bool side) const {
+    return {triangle(h.from, h.to, side), triangle(h.from, h.vertex, !side)};
   }
 
   /// With the half-edge, or, back, with the one that runs the other way; -1: there is none.
@@ -129,9 +132,10 @@ class HangingVertices {
     return -1;
   }
 
-  /// Back to back, but for rounding.
+  /// Back to back, but for rounding. False also if one is not there.
   bool lie_on_one_another(const DividedTriangle &pair) const {
-    constexpr double rounding = 1e-6;
+    constexpr double rounding = 0.01;
+    if (pair.coarse < 0 || pair.fine < 0) return false;
     const auto normal = [&](std::int32_t triangle) {
       const Triangle &t = triangles_[std::size_t(triangle)];
       return glm::cross(way(t[0], t[1]), way(t[0], t[2]));
@@ -150,17 +154,13 @@ class HangingVertices {
 /// Tets that are divided one by one.
 class Division {
  public:
-  Division(const Original &original, Span<const HangingVertex> hanging, Job &job)
-      : points_(original.view.points),
+  Division(NumberedTets &solid, Span<const HangingVertex> hanging, Job &job)
+      : points_(solid.points),
         job_(job),
-        tets_(original.view.tets.begin(), original.view.tets.end(), &job.memory),
-        number_(original.tet_number, &job.memory),
+        tets_(solid.tets),
+        number_(solid.number),
         list_of_(points_.size(), -1, &job.memory),
         lists_(&job.memory) {
-    if (number_.empty()) {
-      number_.resize(tets_.size());
-      std::iota(number_.begin(), number_.end(), 0);
-    }
     for (const HangingVertex &h : hanging)
       if (std::int32_t &list = list_of_[std::size_t(h.from)]; list < 0) {
         list = std::int32_t(lists_.size());
@@ -189,12 +189,6 @@ class Division {
       enter(tets_.size() - 1);
     }
     return true;
-  }
-
-  void give(Original &original) {
-    original.tets = std::move(tets_);
-    original.tet_number = std::move(number_);
-    original.view.tets = original.tets;
   }
 
  private:
@@ -231,33 +225,29 @@ class Division {
 
   Span<const Vec3> points_;
   Job &job_;
-  Array<Tet> tets_;
-  Array<std::int32_t> number_;        // of each, among the submitted ones
+  Array<Tet> &tets_;
+  Array<std::int32_t> &number_;       // of each, among the submitted ones
   Array<std::int32_t> list_of_;       // of each vertex; -1: it needs none
   Array<Array<std::int32_t>> lists_;  // of tets that have, or had, the vertex
 };
 
 }  // namespace
 
+Array<HangingVertex> find_hanging_vertices(const MeshView &mesh, Span<const Triangle> triangles, Job &job) {
+  return HangingVertices(mesh, triangles, job).find();
+}
+
 Array<DividedTriangle> find_divided_triangles(const MeshView &mesh, Span<const Triangle> triangles, Job &job) {
   return HangingVertices(mesh, triangles, job).find_divided_triangles();
 }
 
-void divide_at_hanging_vertices(Job &job, Boundary &boundary, Original &original) {
-  for (bool any = true; any;) {
-    const Array<HangingVertex> hanging = HangingVertices(original.view, boundary.triangles, job).find();
-    if (hanging.empty()) return;
-    Division division(original, hanging, job);
-    any = false;
-    for (const HangingVertex &h : hanging) any = division.divide(h) || any;
-    if (!any) return;
-    division.give(original);
-    Boundary anew(job.memory);
-    extract_boundary(original.view, job, anew, original.numbers());
-    anew.flat_tets += boundary.flat_tets;
-    anew.duplicate_tets += boundary.duplicate_tets;
-    boundary = std::move(anew);
-  }
+bool divide_at_hanging_vertices(Job &job, NumberedTets &tets) {
+  const Array<HangingVertex> hanging = find_hanging_vertices(tets.view(), tets.boundary.triangles, job);
+  if (hanging.empty()) return false;
+  Division division(tets, hanging, job);
+  bool any = false;
+  for (const HangingVertex &h : hanging) any = division.divide(h) || any;
+  return any;
 }
 
 }  // namespace tetlod

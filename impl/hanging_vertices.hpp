@@ -1,20 +1,26 @@
 // Vertices on the edges of coarser neighbours, as between the levels of a mesh that is refined in places.
 #pragma once
-#include "extract_boundary.hpp"
-#include "prepare.hpp"
+#include "numbered_tets.hpp"
 
 namespace tetlod {
 
-/// Two triangles of a closed surface, seen from outside, that lie back to back: a vertex on each edge of the one, and
-/// the other at one of these edges. At vertices of very many triangles none are looked for.
+/// It lies on the edge, but for rounding, and has one of its own to the end `from`. On one side of the two edges at
+/// least, triangles lie back to back.
+struct HangingVertex {
+  std::int32_t vertex, from, to;
+};
+
+/// Of a closed surface, seen from outside. At vertices of very many triangles none are looked for.
+Array<HangingVertex> find_hanging_vertices(const MeshView &mesh, Span<const Triangle> triangles, Job &job);
+
+/// Such triangles, where the coarse one has a hanging vertex, with edges to both ends, on each of its edges.
 struct DividedTriangle {
   std::int32_t coarse, fine;
 };
 Array<DividedTriangle> find_divided_triangles(const MeshView &mesh, Span<const Triangle> triangles, Job &job);
 
-/// Divides the tets at edges of the boundary on which others of its vertices lie, until there are none, but for where
-/// one would turn over. The halves have the number of the whole. The boundary is as extract_boundary() leaves it, and
-/// nothing of it is excluded; it is extracted anew.
-void divide_at_hanging_vertices(Job &job, Boundary &boundary, Original &original);
+/// Divides the tets at edges of the boundary that have a hanging vertex, once each, unless one would turn over. The
+/// boundary is of before. False: there is nothing to divide.
+bool divide_at_hanging_vertices(Job &job, NumberedTets &tets);
 
 }  // namespace tetlod

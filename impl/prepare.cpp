@@ -4,10 +4,9 @@
 #include <cmath>
 
 #include "budget.hpp"
-#include "close_quads.hpp"
+#include "conforming.hpp"
 #include "first_culprit.hpp"
 #include "geometry.hpp"
-#include "hanging_vertices.hpp"
 #include "merge_points.hpp"
 #include "status.hpp"
 #include "touching_parts.hpp"
@@ -365,9 +364,7 @@ void prepare_original(const Input &input, const Options &options, Job &job, Orig
 void prepare_boundary(const Input &input, const Options &options, Job &job, Original &original, Boundary &boundary) {
   extract_boundary(original.view, job, boundary, original.numbers());
   drop_excluded(input, job, boundary, original);
-  if (options.on_overlap == policy_error) return;
-  divide_at_hanging_vertices(job, boundary, original);
-  close_crossed_quads(job, boundary, original);
+  if (options.on_overlap == policy_repair) make_conforming(job, boundary, original);
 }
 
 void prepare_with_boundary(const Input &input, const Options &options, Job &job, Original &original,

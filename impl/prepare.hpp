@@ -67,7 +67,7 @@ Merged merge_coincident(Span<const Vec3> points, Span<const Tet> tets, Span<cons
 void prepare_original(const Input &input, const Options &options, Job &job, Original &original);
 
 /// Then: extract_boundary. What it leaves out of the view, flat tets that hang on it and those given twice, is dropped,
-/// and points that no other tet has are none of the mesh any more. Where overlaps are repaired, close_crossed_quads.
+/// and points that no other tet has are none of the mesh any more. Where overlaps are repaired, make_conforming.
 void prepare_boundary(const Input &input, const Options &options, Job &job, Original &original, Boundary &boundary);
 
 /// prepare_original and prepare_boundary.

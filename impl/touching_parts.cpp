@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <tuple>
 
+#include "conforming.hpp"
 #include "crossed_quads.hpp"
 #include "disjoint_sets.hpp"
 #include "face_sweep.hpp"
 #include "hanging_vertices.hpp"
-#include "predicates.hpp"
 
 namespace tetlod {
 
@@ -26,7 +26,11 @@ class TouchingParts {
 
   std::int64_t keep_apart() {
     join_tets();
-    if (any_apart()) join_across_faces();
+    if (any_apart()) {
+      NumberedTets tets = tets_by_place();
+      join_across_faces(tets);
+      if (any_apart()) join_across_gaps(tets);
+    }
     if (any_apart()) split_places();
     std::int64_t merged = 0;
     for (std::size_t v = 0; v < representative_.size(); v++) merged += representative_[v] != std::int32_t(v);
@@ -54,38 +58,44 @@ class TouchingParts {
     return false;
   }
 
-  void join_across_faces() {
-    Array<Tet> places(tets_.begin(), tets_.end(), &job_.memory);
-    Array<std::uint8_t> excluded(tets_.size(), 0, &job_.memory);
-    for (std::size_t t = 0; t < places.size(); t++) {
+  /// By place, without those that are none; numbered as they are.
+  NumberedTets tets_by_place() const {
+    NumberedTets tets({points_, {}, {}}, {}, job_.memory);
+    for (std::size_t t = 0; t < tets_.size(); t++) {
       job_.poll_at(t, 0.9);
-      for (std::int32_t &v : places[t]) v = representative_[std::size_t(v)];
-      excluded[t] = has_repeated_vertex(places[t]) || !has_all(tets_[t]);
+      Tet places = tets_[t];
+      for (std::int32_t &v : places) v = representative_[std::size_t(v)];
+      if (has_repeated_vertex(places) || !has_all(tets_[t])) continue;
+      tets.tets.push_back(places);
+      tets.number.push_back(std::int32_t(t));
     }
-    Array<Triangle> single(&job_.memory);
-    Array<std::int32_t> tet_of(&job_.memory);
-    const MeshView mesh{points_, {}, places};
-    for_each_face(mesh, excluded, job_, [&](const FaceUse *first, const FaceUse *last) {
-      for (const FaceUse *use = first + 1; use < last; use++) join(first->tet(), use->tet());
-      if (last - first > 1) return;
-      single.push_back(face_of(places[first->tet()], first->corner()));
-      tet_of.push_back(std::int32_t(first->tet()));
-    });
-    for (const CrossedQuad &quad : find_crossed_quads(mesh, single, tet_of, job_))
-      for (const std::size_t t : quad.triangles) join(std::size_t(tet_of[quad.triangles[0]]), std::size_t(tet_of[t]));
-    for (const DividedTriangle &pair : find_divided_triangles(mesh, single, job_))
-      join(std::size_t(tet_of[std::size_t(pair.coarse)]), std::size_t(tet_of[std::size_t(pair.fine)]));
+    return tets;
   }
 
-  void join(std::size_t t, std::size_t other) { parts_.join(tets_[t][0], tets_[other][0]); }
+  void join_across_faces(const NumberedTets &tets) {
+    for_each_face(tets.view(), {}, job_, [&](const FaceUse *first, const FaceUse *last) {
+      for (const FaceUse *use = first + 1; use < last; use++) join(tets, first->tet(), use->tet());
+    });
+  }
 
-  /// Seen from outside.
-  Triangle face_of(const Tet &t, std::size_t corner) const {
-    const int *face = tet_face[corner];
-    const auto at = [&](std::size_t k) { return points_[std::size_t(t[k])]; };
-    Triangle f{t[std::size_t(face[0])], t[std::size_t(face[1])], t[std::size_t(face[2])]};
-    if (orientation(at(0), at(1), at(2), at(3)) < 0) std::swap(f[1], f[2]);
-    return f;
+  /// Where then, all at one place merged, all conforms: faces that divide one another in other ways stay in contact.
+  void join_across_gaps(NumberedTets &tets) {
+    if (!tets.find_boundary(job_)) return;
+    const Boundary &boundary = tets.boundary;
+    const auto quads = find_crossed_quads(tets.view(), boundary.triangles, boundary.tet_of, job_);
+    const auto divided = find_divided_triangles(tets.view(), boundary.triangles, job_);
+    if (quads.empty() && divided.empty()) return;
+    NumberedTets trial(tets.view(), tets.number, job_.memory);
+    if (!can_conform(job_, trial)) return;
+    const auto tet_of = [&](std::size_t triangle) { return std::size_t(boundary.tet_of[triangle]); };
+    for (const CrossedQuad &quad : quads)
+      for (const std::size_t t : quad.triangles) join(tets, tet_of(quad.triangles[0]), tet_of(t));
+    for (const DividedTriangle &pair : divided)
+      join(tets, tet_of(std::size_t(pair.coarse)), tet_of(std::size_t(pair.fine)));
+  }
+
+  void join(const NumberedTets &tets, std::size_t t, std::size_t other) {
+    parts_.join(tets_[std::size_t(tets.number[t])][0], tets_[std::size_t(tets.number[other])][0]);
   }
 
   /// Where several parts are at one place, the lowest point of each stands for that part's.

@@ -1,0 +1,59 @@
+#include "conforming.hpp"
+
+#include "close_quads.hpp"
+#include "crossed_quads.hpp"
+#include "hanging_vertices.hpp"
+#include "status.hpp"
+#include "surface_topology.hpp"
+
+namespace tetlod {
+
+namespace {
+
+bool has_gaps(const MeshView &mesh, const Boundary &boundary, Job &job) {
+  return !find_hanging_vertices(mesh, boundary.triangles, job).empty() ||
+         !find_crossed_quads(mesh, boundary.triangles, boundary.tet_of, job).empty();
+}
+
+/// Its boundary bounds wedges of material.
+bool is_solid(const MeshView &mesh, const Boundary &boundary, Job &job) {
+  Surface surface(job.memory);
+  make_surface(mesh, boundary.triangles, job, surface);
+  SurfaceTopology topology(job.memory);
+  try {
+    find_topology(surface.points, surface.triangles, job, topology);
+  } catch (const Error &error) {
+    if (error.status() != Status::mesh_intersecting) throw;
+    return false;
+  }
+  return true;
+}
+
+/// False: no solid has come of it.
+bool close_gaps(Job &job, NumberedTets &tets) {
+  if (!tets.find_boundary(job)) return false;
+  while (divide_at_hanging_vertices(job, tets))
+    if (!tets.find_boundary(job)) return false;
+  if (close_crossed_quads(job, tets) && !tets.find_boundary(job)) return false;
+  return is_solid(tets.view(), tets.boundary, job);
+}
+
+}  // namespace
+
+void make_conforming(Job &job, Boundary &boundary, Original &original) {
+  if (!has_gaps(original.view, boundary, job)) return;
+  NumberedTets tets(original.view, original.tet_number, job.memory);
+  if (!close_gaps(job, tets)) return;
+  tets.boundary.flat_tets += boundary.flat_tets;
+  tets.boundary.duplicate_tets += boundary.duplicate_tets;
+  boundary = std::move(tets.boundary);
+  original.tets = std::move(tets.tets);
+  original.tet_number = std::move(tets.number);
+  original.view.tets = original.tets;
+}
+
+bool can_conform(Job &job, NumberedTets &tets) {
+  return close_gaps(job, tets) && !has_gaps(tets.view(), tets.boundary, job);
+}
+
+}  // namespace tetlod

@@ -1,0 +1,17 @@
+// Tets whose faces lie on one another, but are not the same, become neighbours: where a mesh is refined in places, and
+// where hexahedra were split one by one.
+#pragma once
+#include "numbered_tets.hpp"
+#include "prepare.hpp"
+
+namespace tetlod {
+
+/// Divides tets at hanging vertices, then closes crossed quads, so that the faces in between are none of the boundary.
+/// Halves, and what takes the place of others, have their numbers. Where no solid comes of it all stays as it is.
+/// boundary: as extract_boundary() leaves it, with nothing excluded.
+void make_conforming(Job &job, Boundary &boundary, Original &original);
+
+/// Whether a solid comes of these, with no hanging vertex and no crossed quad.
+bool can_conform(Job &job, NumberedTets &tets);
+
+}  // namespace tetlod
