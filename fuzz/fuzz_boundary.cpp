@@ -193,7 +193,7 @@ void run_stages(Stage &stage, const Mesh &mesh, Bytes &in) {
   tetlod::Boundary boundary(stage.memory());
   const Status extracted = stage.call("extract_boundary", {Status::mesh_nonmanifold, Status::mesh_degenerate},
                                       [&] { tetlod::extract_boundary(original.view, stage.job(), boundary); });
-  if (options.merge_tolerance == 0 && !facts.wide && !facts.hanging) {
+  if (options.merge_tolerance == 0 && !facts.wide && !facts.gaps) {
     if (extracted == Status::mesh_nonmanifold) DEMAND(facts.nonmanifold_faces, "a face has more than two tets");
     if (extracted == Status::mesh_degenerate) DEMAND(facts.boundary.empty(), "there is no boundary");
     if (extracted == Status::ok) check_boundary(boundary, original.view, facts);

@@ -129,7 +129,7 @@ class Inspection {
       return std::all_of(t.begin(), t.end(), [&](std::int64_t v) { return used_[std::size_t(v)]; });
     };
     tets_.erase(std::remove_if(tets_.begin(), tets_.end(), [&](const Corners &t) { return !has_all(t); }), tets_.end());
-    look_for_hanging(single_faces(tets_by_place()));
+    look_for_gaps(tets_by_place());
     const std::vector<std::int64_t> part = parts_of_points();
     std::map<std::pair<Point, std::int64_t>, std::int64_t> first;
     std::vector<std::int64_t> renamed(used_.size());
@@ -142,7 +142,7 @@ class Inspection {
       for (std::int64_t &v : tet) v = renamed[std::size_t(v)];
   }
 
-  /// The lowest point of the tets that hang together by points and, at the same places, faces and quads; points of no
+  /// The lowest point of the tets that hang together by points and, at the same places, faces; points of no
   /// tet that is left are parts of their own. All are one where contacts are not taken.
   std::vector<std::int64_t> parts_of_points() const {
     std::vector<std::int64_t> part(used_.size(), 0);
@@ -161,8 +161,6 @@ class Inspection {
       for (std::size_t k = 0; k < 4 && !is_degenerate(tet); k++)
         join(tet[0], first.emplace(places(face_of(tet, k)), tet[0]).first->second);
     }
-    for (const auto &tets_at_quad : crossed_quads(tets_by_place()))
-      for (const std::size_t t : tets_at_quad) join(tets_[tets_at_quad[0]][0], tets_[t][0]);
     for (std::size_t v = 0; v < part.size(); v++) part[v] = root(std::int64_t(v));
     return part;
   }
@@ -178,59 +176,6 @@ class Inspection {
       for (std::int64_t &v : tet) v = degenerate ? -1 : first.at(place(v));
     }
     return tets;
-  }
-
-  /// The four faces of a tet with next to no volume, each of one tet of the mesh, which is another and has its fourth
-  /// corner not inside. Returns these tets; `faces`: those of all.
-  std::vector<std::array<std::size_t, 4>> crossed_quads(const std::vector<Corners> &tets,
-                                                        std::set<Face> *faces = nullptr) const {
-    std::map<Face, std::size_t> single;
-    for (const auto &[face, users] : users_of(tets))
-      if (users.size() == 1 && face[0] >= 0) single[face] = users[0];
-    std::vector<std::array<std::size_t, 4>> found;
-    std::set<Face> taken;
-    for (auto low = single.begin(); low != single.end(); ++low)
-      for (auto next = std::next(low); next != single.end(); ++next) {
-        const std::int64_t a = low->first[0], b = low->first[1], c = low->first[2], d = next->first[2];
-        if (next->first[0] != a || next->first[1] != b) break;
-        const std::array<Face, 4> quad = {Face{b, c, d}, Face{a, c, d}, next->first, low->first};
-        const bool crossed =
-            is_thin({a, b, c, d}) && std::all_of(quad.begin(), quad.end(), [&](const Face &face) {
-              return single.count(face) && !taken.count(face) && !has_inside({a, b, c, d}, tets[single[face]]);
-            });
-        if (!crossed) continue;
-        taken.insert(quad.begin(), quad.end());
-        found.push_back({single[quad[0]], single[quad[1]], single[quad[2]], single[quad[3]]});
-      }
-    if (faces != nullptr) *faces = taken;
-    return found;
-  }
-
-  bool is_thin(const Corners &t) const {
-    double side[3][3], longest = 0;
-    for (std::size_t k = 0; k < 3; k++)
-      for (std::size_t i = 0; i < 3; i++) {
-        side[k][i] = at(t[k + 1])[i] - at(t[0])[i];
-        longest = std::max(longest, std::abs(side[k][i]));
-      }
-    for (auto &vector : side)
-      for (double &x : vector) x /= longest;
-    const auto minor = [&](std::size_t i, std::size_t j) { return side[0][i] * side[1][j] - side[1][i] * side[0][j]; };
-    return std::abs(minor(1, 2) * side[2][0] + minor(2, 0) * side[2][1] + minor(0, 1) * side[2][2]) <= 0.1;
-  }
-
-  bool has_inside(const Corners &corners, const Corners &tet) const {
-    for (const std::int64_t v : tet) {
-      if (std::count(corners.begin(), corners.end(), v)) continue;
-      bool inside = side_of(corners) != 0;
-      for (std::size_t k = 0; k < 4; k++) {
-        Corners other = corners;
-        other[k] = v;
-        inside = inside && side_of(other) == side_of(corners);
-      }
-      return inside;
-    }
-    return true;
   }
 
   std::array<Point, 3> places(const Face &face) const {
@@ -287,19 +232,34 @@ class Inspection {
         if (side_of(tet) < 0) std::swap(face[1], face[2]);
         facts_.boundary.push_back(face);
       }
-    look_for_hanging(facts_.boundary);
-    if (repairs_.closes_quads) close_quads();
+    look_for_gaps(facts_.tets);
   }
 
-  void look_for_hanging(const std::vector<Face> &faces) {
-    if (repairs_.takes_contacts || repairs_.closes_quads) facts_.hanging = facts_.hanging || any_hanging(faces);
+  void look_for_gaps(const std::vector<Corners> &tets) {
+    if (!repairs_.takes_contacts && !repairs_.closes_gaps) return;
+    const std::vector<Face> faces = single_faces(tets);
+    facts_.gaps = facts_.gaps || any_hanging(faces) || any_quad(faces, tets);
   }
 
-  std::vector<Face> single_faces(const std::vector<Corners> &tets) const {
+  static std::vector<Face> single_faces(const std::vector<Corners> &tets) {
     std::vector<Face> faces;
     for (const auto &[face, users] : users_of(tets))
       if (users.size() == 1 && face[0] >= 0) faces.push_back(face);
     return faces;
+  }
+
+  /// Four faces of four vertices that are no tet.
+  static bool any_quad(const std::vector<Face> &faces, const std::vector<Corners> &tets) {
+    const std::set<Face> all(faces.begin(), faces.end());
+    std::set<Corners> solid;
+    for (const Corners &tet : tets) solid.insert(sorted(tet));
+    for (auto low = all.begin(); low != all.end(); ++low)
+      for (auto next = std::next(low); next != all.end(); ++next) {
+        const std::int64_t a = low->at(0), b = low->at(1), c = low->at(2), d = next->at(2);
+        if (next->at(0) != a || next->at(1) != b) break;
+        if (all.count({a, c, d}) && all.count({b, c, d}) && !solid.count({a, b, c, d})) return true;
+      }
+    return false;
   }
 
   /// Two edges from one vertex with the same direction.
@@ -330,15 +290,6 @@ class Inspection {
     }
     const double off = std::hypot(u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2], u[0] * w[1] - u[1] * w[0]);
     return dot >= 0 && off <= std::min(rounding * std::sqrt(std::max(uu, ww)), 2e-3 * std::sqrt(uu * ww));
-  }
-
-  void close_quads() {
-    std::set<Face> closed;
-    crossed_quads(facts_.tets, &closed);
-    if (closed.size() == facts_.boundary.size()) return;  // nothing would be left
-    const auto is_closed = [&](const Face &face) { return closed.count(sorted(face)) > 0; };
-    facts_.boundary.erase(std::remove_if(facts_.boundary.begin(), facts_.boundary.end(), is_closed),
-                          facts_.boundary.end());
   }
 
   const Mesh &mesh_;

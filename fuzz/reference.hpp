@@ -23,16 +23,16 @@ struct Facts {
   /// The sizes of coordinates differ by more than 1e90: products of three leave the range of doubles, and what is flat
   /// cannot be told.
   bool wide = false;
-  /// Vertices lie on edges, also of other parts: the tets at these are divided, and parts joined, where that is
-  /// repaired. What comes of it is not found out again.
-  bool hanging = false;
+  /// Vertices lie on edges, also of other parts, or four faces have four vertices: tets are divided there, others take
+  /// their place, parts are joined, where that is repaired. What comes of it is not found out again.
+  bool gaps = false;
 };
 
 /// What a run does with a mesh.
 struct Repairs {
   bool drop_nonfinite = true;   ///< points without a finite value go with their tets
-  bool takes_contacts = false;  ///< points of parts that share no face, and no crossed quad, do not merge
-  bool closes_quads = false;    ///< those that tets on the two sides cut along different diagonals: they are inside
+  bool takes_contacts = false;  ///< points of parts that share no face do not merge
+  bool closes_gaps = false;     ///< between faces that lie on one another and are not the same
 };
 
 /// Points merge only where they are equal.

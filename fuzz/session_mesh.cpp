@@ -135,7 +135,7 @@ bool same(const Fetched &a, const Fetched &b) {
 
 void Session::accept(const Mesh &mesh, const Facts &facts) {
   last_ = fetch(context_);
-  if (option(TETLOD_OPT_MERGE_TOLERANCE) == 0 && !facts.wide && !facts.hanging) {
+  if (option(TETLOD_OPT_MERGE_TOLERANCE) == 0 && !facts.wide && !facts.gaps) {
     check_result(mesh, facts, *last_, takes_contacts());
     check_report(mesh, facts);
     check_flags(mesh, facts);
@@ -253,7 +253,7 @@ void Session::check(const Disturbance &disturbance) {
   }
   if (mesh.values.size() != mesh.points.size() || option(TETLOD_OPT_MERGE_TOLERANCE) > 0) return;
   const Facts facts = facts_of(mesh, {false, takes_contacts(), repairs(TETLOD_OPT_ON_OVERLAP)});
-  if (facts.wide || facts.hanging) return;
+  if (facts.wide || facts.gaps) return;
   const auto same_count = [&](const char *what, const tetlod_defect &told, std::int64_t is) {
     DEMAND(told.count == is, "tetlod_check: %s are %ld, not %ld", what, long(is), long(told.count));
     DEMAND((told.first < 0) == (is == 0), "tetlod_check: %s have a first one", what);
