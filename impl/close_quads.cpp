@@ -9,6 +9,8 @@ namespace tetlod {
 namespace {
 
 constexpr std::size_t longest_ring = 8, most_fresh = 2 * (longest_ring - 2);
+/// Few quads are left after a few rounds, but where tets overlap. A try takes up to a millisecond.
+constexpr int most_rounds = 20, most_tries = 1000;
 
 /// Tets, what takes their place, and the numbers of these.
 struct Way {
@@ -53,9 +55,10 @@ class ClosedQuads : private TetComplex {
       quads_.erase(end, quads_.end());
       return any;
     };
-    while (some_go([&](const Quad &quad) { return gives_way(quad); }) ||
-           some_go([&](const Quad &quad) { return gives_way_after_another(quad); })) {
-    }
+    for (int round = 0; round < most_rounds; round++)
+      if (!some_go([&](const Quad &quad) { return gives_way(quad); }) &&
+          !some_go([&](const Quad &quad) { return gives_way_after_another(quad); }))
+        return;
   }
 
   void give(NumberedTets &solid) const {
@@ -110,6 +113,7 @@ class ClosedQuads : private TetComplex {
   /// Once tets around an edge nearby have.
   bool gives_way_after_another(const Quad &quad) {
     if (is_gone(quad)) return true;
+    if (tries_++ >= most_tries) return false;
     const Array<std::int32_t> around = tets_around_edges(quad);
     return std::any_of(around.begin(), around.end(), [&](std::int32_t t) {
       return any_edge(Tet(tets[std::size_t(t)]), [&](std::int32_t a, std::int32_t b) {
@@ -196,6 +200,7 @@ class ClosedQuads : private TetComplex {
   Array<std::int32_t> number_;  // of each tet, among the submitted ones
   Array<Quad> quads_;           // whose tets have not given way
   Array<std::int32_t> made_;
+  int tries_ = 0;  // of ways after others
 };
 
 }  // namespace

@@ -10,6 +10,9 @@ namespace tetlod {
 
 namespace {
 
+/// Of the tets: between levels one becomes eight, and most are not between levels. Where tets overlap there is no end.
+constexpr std::size_t largest_growth = 8;
+
 bool has_gaps(const MeshView &mesh, const Boundary &boundary, Job &job) {
   return !find_hanging_vertices(mesh, boundary.triangles, job).empty() ||
          !find_crossed_quads(mesh, boundary.triangles, boundary.tet_of, job).empty();
@@ -31,9 +34,10 @@ bool is_solid(const MeshView &mesh, const Boundary &boundary, Job &job) {
 
 /// False: no solid has come of it.
 bool close_gaps(Job &job, NumberedTets &tets) {
+  const std::size_t most = largest_growth * tets.tets.size();
   if (!tets.find_boundary(job)) return false;
   while (divide_at_hanging_vertices(job, tets))
-    if (!tets.find_boundary(job)) return false;
+    if (tets.tets.size() > most || !tets.find_boundary(job)) return false;
   if (close_crossed_quads(job, tets) && !tets.find_boundary(job)) return false;
   return is_solid(tets.view(), tets.boundary, job);
 }

@@ -94,7 +94,7 @@ class HangingVertices {
       if (h.from != before.from || h.to != before.to || h.vertex != before.vertex) continue;  // not from both ends
       for (const bool side : {false, true}) {
         const DividedTriangle pair = triangles_at(h, side);
-        if (!lie_on_one_another(pair)) continue;
+        if (pair.coarse < 0) continue;
         edges[std::size_t(pair.coarse)]++;
         pairs.push_back(pair);
       }
@@ -116,31 +116,30 @@ class HangingVertices {
     if (length2(way(v, near)) > length2(way(v, far))) std::swap(near, far);
     const HangingVertex hanging{near, v, far};
     if (lies_on(way(v, near), way(v, far), rounding_) &&
-        (lie_on_one_another(triangles_at(hanging, false)) || lie_on_one_another(triangles_at(hanging, true))))
+        (triangles_at(hanging, false).coarse >= 0 || triangles_at(hanging, true).coarse >= 0))
       found.push_back(hanging);
   }
 
-  /// On one side of the edges: what is outside of the one solid is inside of the other.
+  /// That lie on one another on one side of the edges: what is outside of the one solid is inside of the other. -1:
+  /// there are none.
   DividedTriangle triangles_at(const HangingVertex &h, bool side) const {
-    return {triangle(h.from, h.to, side), triangle(h.from, h.vertex, !side)};
+    const Span<const Corner> corners = corners_.of(std::size_t(h.from));
+    for (const Corner &coarse : corners)
+      for (const Corner &fine : corners)
+        if ((side ? coarse.last : coarse.next) == h.to && (side ? fine.next : fine.last) == h.vertex &&
+            are_back_to_back(coarse.triangle, fine.triangle))
+          return {coarse.triangle, fine.triangle};
+    return {-1, -1};
   }
 
-  /// With the half-edge, or, back, with the one that runs the other way; -1: there is none.
-  std::int32_t triangle(std::int32_t from, std::int32_t to, bool back) const {
-    for (const Corner &corner : corners_.of(std::size_t(from)))
-      if ((back ? corner.last : corner.next) == to) return corner.triangle;
-    return -1;
-  }
-
-  /// Back to back, but for rounding. False also if one is not there.
-  bool lie_on_one_another(const DividedTriangle &pair) const {
+  /// But for rounding.
+  bool are_back_to_back(std::int32_t a, std::int32_t b) const {
     constexpr double rounding = 0.01;
-    if (pair.coarse < 0 || pair.fine < 0) return false;
     const auto normal = [&](std::int32_t triangle) {
       const Triangle &t = triangles_[std::size_t(triangle)];
       return glm::cross(way(t[0], t[1]), way(t[0], t[2]));
     };
-    const Vec3 n = normal(pair.coarse), m = normal(pair.fine);
+    const Vec3 n = normal(a), m = normal(b);
     return glm::dot(n, m) < 0 && length2(glm::cross(n, m)) <= rounding * rounding * length2(n) * length2(m);
   }
 
@@ -177,7 +176,7 @@ class Division {
     job_.poll(0.9);
     Array<std::int32_t> at_edge(&job_.memory);
     for (const std::int32_t t : lists_[std::size_t(list_of_[std::size_t(h.from)])])
-      if (has(t, h.from) && has(t, h.to) && !contains(at_edge, t)) at_edge.push_back(t);
+      if (has(t, h.from) && has(t, h.to)) at_edge.push_back(t);
     if (at_edge.empty() ||
         !std::all_of(at_edge.begin(), at_edge.end(), [&](std::int32_t t) { return may_divide(t, h); }))
       return false;
@@ -185,26 +184,25 @@ class Division {
       tets_.push_back(with(t, h.from, h.vertex));
       number_.push_back(number_[std::size_t(t)]);
       tets_[std::size_t(t)] = with(t, h.to, h.vertex);
-      enter(std::size_t(t));
       enter(tets_.size() - 1);
+      add(h.vertex, t);
     }
     return true;
   }
 
  private:
-  static bool contains(Span<const std::int32_t> some, std::int32_t t) {
-    return std::find(some.begin(), some.end(), t) != some.end();
-  }
   bool has(std::int32_t t, std::int32_t v) const {
     const Tet &tet = tets_[std::size_t(t)];
     return std::find(tet.begin(), tet.end(), v) != tet.end();
   }
 
-  /// In the lists of those of its vertices that have one.
   void enter(std::size_t t) {
-    for (const std::int32_t v : tets_[t])
-      if (const std::int32_t list = list_of_[std::size_t(v)]; list >= 0)
-        lists_[std::size_t(list)].push_back(std::int32_t(t));
+    for (const std::int32_t v : tets_[t]) add(v, std::int32_t(t));
+  }
+
+  /// To the list of vertex v, if it has one.
+  void add(std::int32_t v, std::int32_t t) {
+    if (const std::int32_t list = list_of_[std::size_t(v)]; list >= 0) lists_[std::size_t(list)].push_back(t);
   }
 
   Tet with(std::int32_t t, std::int32_t gone, std::int32_t instead) const {

@@ -45,7 +45,7 @@ constexpr NumberOption kPolicyOptions[] = {
     {"on-inverted", "tets the other way round: turned"},
     {"on-duplicate", "tets given twice: dropped"},
     {"on-overlap",
-     "inner tets that overlap: kept; quads cut along both diagonals: along one; parts in contact: each for itself"},
+     "inner tets that overlap: kept; faces inside that do not fit: divided; parts in contact: each for itself"},
     {"on-unused", "points that no tet uses: ignored"},
     {"on-nonfinite", "points without a finite value: ignored with their tets (coordinates have to be finite)"},
 };
