@@ -248,18 +248,48 @@ class Inspection {
     return faces;
   }
 
-  /// Four faces of four vertices that are no tet.
-  static bool any_quad(const std::vector<Face> &faces, const std::vector<Corners> &tets) {
-    const std::set<Face> all(faces.begin(), faces.end());
+  /// Two faces at an edge, and another with the other diagonal of their quad: the third and a fourth fill the quad, and
+  /// are not of a tet with the two, or one is parallel to it.
+  bool any_quad(const std::vector<Face> &faces, const std::vector<Corners> &tets) const {
     std::set<Corners> solid;
     for (const Corners &tet : tets) solid.insert(sorted(tet));
-    for (auto low = all.begin(); low != all.end(); ++low)
-      for (auto next = std::next(low); next != all.end(); ++next) {
-        const std::int64_t a = low->at(0), b = low->at(1), c = low->at(2), d = next->at(2);
-        if (next->at(0) != a || next->at(1) != b) break;
-        if (all.count({a, c, d}) && all.count({b, c, d}) && !solid.count({a, b, c, d})) return true;
-      }
+    std::map<std::array<std::int64_t, 2>, std::vector<Face>> at_edge;
+    for (const Face &face : faces)
+      for (std::size_t k = 0; k < 3; k++)
+        at_edge[sorted(std::array<std::int64_t, 2>{face[k], face[(k + 1) % 3]})].push_back(face);
+    const auto apex = [](const Face &face, const std::array<std::int64_t, 2> &edge) {
+      return *std::find_if(face.begin(), face.end(), [&](std::int64_t v) { return v != edge[0] && v != edge[1]; });
+    };
+    for (const auto &[edge, around] : at_edge)
+      for (const Face &one : around)
+        for (const Face &two : around) {
+          const std::int64_t u = apex(one, edge), v = apex(two, edge);
+          const auto across = at_edge.find({u, v});
+          if (u >= v || across == at_edge.end()) continue;
+          std::size_t filling = 0;
+          for (const Face &other : across->second) {
+            if (are_parallel(one, other)) return true;
+            const std::int64_t third = apex(other, across->first);
+            filling += third == edge[0] || third == edge[1];
+          }
+          if (filling > 1 && !solid.count(sorted(Corners{edge[0], edge[1], u, v}))) return true;
+        }
     return false;
+  }
+
+  std::array<double, 3> normal(const Face &face) const {
+    std::array<double, 3> a, b;
+    for (std::size_t i = 0; i < 3; i++) {
+      a[i] = at(face[1])[i] - at(face[0])[i];
+      b[i] = at(face[2])[i] - at(face[0])[i];
+    }
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  }
+
+  bool are_parallel(const Face &one, const Face &other) const {
+    const auto n = normal(one), m = normal(other);
+    const double off = std::hypot(n[1] * m[2] - n[2] * m[1], n[2] * m[0] - n[0] * m[2], n[0] * m[1] - n[1] * m[0]);
+    return !(off > 0.02 * std::hypot(n[0], n[1], n[2]) * std::hypot(m[0], m[1], m[2]));
   }
 
   /// Two edges from one vertex with the same direction.

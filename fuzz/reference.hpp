@@ -23,7 +23,7 @@ struct Facts {
   /// The sizes of coordinates differ by more than 1e90: products of three leave the range of doubles, and what is flat
   /// cannot be told.
   bool wide = false;
-  /// Vertices lie on edges, also of other parts, or four faces have four vertices: tets are divided there, others take
+  /// Vertices lie on edges, also of other parts, or faces lie on one another: tets are divided there, others take
   /// their place, parts are joined, where that is repaired. What comes of it is not found out again.
   bool gaps = false;
 };

@@ -1,5 +1,9 @@
 #include "close_quads.hpp"
 
+#include <algorithm>
+#include <functional>
+#include <utility>
+
 #include "crossed_quads.hpp"
 #include "predicates.hpp"
 #include "tet_complex.hpp"
@@ -29,21 +33,98 @@ bool winds_as(const Tet &t, const Tet &other) {
   return inversions % 2 == 0;
 }
 
+/// Flat tets between the two sides, one on another, until the sides have the same triangles.
+class Layers {
+ public:
+  Layers(NumberedTets &solid, Job &job)
+      : solid_(solid),
+        job_(job),
+        triangles_(solid.boundary.triangles, &job.memory),
+        tet_of_(solid.boundary.tet_of, &job.memory) {}
+
+  /// One side comes to have the edges of the other, as long as a quad has two of these; then both come to be Delaunay.
+  /// Returns where the tets begin.
+  std::size_t add() {
+    const std::size_t first = solid_.tets.size();
+    bool are_alike = false;
+    for (int round = 0; round < most_rounds; round++) {
+      Array<CrossedQuad> quads = find_crossed_quads(solid_.view(), triangles_, tet_of_, job_);
+      are_alike = are_alike || quads.empty();
+      if (are_alike) keep_closed(quads);
+      if (quads.empty()) quads = find_slanted_quads(solid_.view(), triangles_, tet_of_, job_);
+      if (quads.empty()) break;
+      for (const CrossedQuad &quad : quads) add(quad);
+      cover_twins();
+      drop_covered();
+    }
+    return first;
+  }
+  bool cover_all() const { return triangles_.empty(); }
+
+ private:
+  void add(const CrossedQuad &quad) {
+    const auto [x, y, u, v] = quad.tet;
+    const auto tet = std::int32_t(solid_.tets.size());
+    solid_.number.push_back(solid_.number[std::size_t(tet_of_[std::size_t(quad.one[0])])]);
+    solid_.tets.push_back(quad.tet);
+    for (const std::int32_t t : quad.one) cover(t);
+    if (quad.is_closed())
+      for (const std::int32_t t : quad.other) cover(t);
+    else
+      for (const Triangle &t : {Triangle{v, y, u}, Triangle{u, x, v}}) {
+        triangles_.push_back(t);
+        tet_of_.push_back(tet);
+      }
+  }
+
+  static void keep_closed(Array<CrossedQuad> &quads) {
+    quads.erase(std::remove_if(quads.begin(), quads.end(), [](const CrossedQuad &quad) { return !quad.is_closed(); }),
+                quads.end());
+  }
+
+  void cover(std::int32_t t) { tet_of_[std::size_t(t)] = -1; }
+
+  /// Triangles that both sides have.
+  void cover_twins() {
+    Array<std::pair<Triangle, std::int32_t>> sorted(&job_.memory);
+    for (std::size_t t = 0; t < triangles_.size(); t++) {
+      if (tet_of_[t] < 0) continue;
+      sorted.push_back({triangles_[t], std::int32_t(t)});
+      std::sort(sorted.back().first.begin(), sorted.back().first.end());
+    }
+    std::sort(sorted.begin(), sorted.end(), PollingLess(job_, 0.9, std::less<std::pair<Triangle, std::int32_t>>()));
+    for (std::size_t i = 1; i < sorted.size(); i++)
+      if (sorted[i].first == sorted[i - 1].first) {
+        cover(sorted[i].second);
+        cover(sorted[i - 1].second);
+      }
+  }
+  void drop_covered() {
+    std::size_t kept = 0;
+    for (std::size_t t = 0; t < triangles_.size(); t++) {
+      if (tet_of_[t] < 0) continue;
+      triangles_[kept] = triangles_[t];
+      tet_of_[kept++] = tet_of_[t];
+    }
+    triangles_.resize(kept);
+    tet_of_.resize(kept);
+  }
+
+  NumberedTets &solid_;
+  Job &job_;
+  Array<Triangle> triangles_;   // of the boundary with the tets
+  Array<std::int32_t> tet_of_;  // -1: covered
+};
+
 class ClosedQuads : private TetComplex {
  public:
-  ClosedQuads(NumberedTets &&solid, Span<const CrossedQuad> quads, Job &job)
+  /// From `first` on tets are flat, and wind as they fit.
+  ClosedQuads(NumberedTets &&solid, std::size_t first, Job &job)
       : TetComplex(job.memory), job_(job), number_(std::move(solid.number)), quads_(&job.memory), made_(&job.memory) {
     points.assign(solid.points.begin(), solid.points.end());
     tets = std::move(solid.tets);
-    turn_upright();
-    for (const CrossedQuad &quad : quads) {
-      const std::size_t first = quad.triangles[0];
-      const Triangle &t = solid.boundary.triangles[first];  // seen from the solid: from within the quad
-      const Tet between{t[0], t[1], t[2], quad.corners[0]};
-      quads_.push_back({std::int32_t(tets.size()), between});
-      tets.push_back(between);
-      number_.push_back(number_[std::size_t(solid.boundary.tet_of[first])]);
-    }
+    turn_upright(first);
+    for (std::size_t t = first; t < tets.size(); t++) quads_.push_back({std::int32_t(t), tets[t]});
     connect(job);
   }
 
@@ -61,7 +142,8 @@ class ClosedQuads : private TetComplex {
         return;
   }
 
-  void give(NumberedTets &solid) const {
+  void give(NumberedTets &solid) {
+    peel();
     solid.tets.clear();
     solid.number.clear();
     for (std::size_t t = 0; t < tets.size(); t++) {
@@ -73,11 +155,26 @@ class ClosedQuads : private TetComplex {
   }
 
  private:
-  void turn_upright() {
-    for (std::size_t t = 0; t < tets.size(); t++) {
+  void turn_upright(std::size_t tets_with_volume) {
+    for (std::size_t t = 0; t < tets_with_volume; t++) {
       job_.poll_at(t, 0.9);
       const auto at = [&](std::size_t k) { return points[std::size_t(tets[t][k])]; };
       if (orientation(at(0), at(1), at(2), at(3)) < 0) std::swap(tets[t][2], tets[t][3]);
+    }
+  }
+
+  /// Flat tets at the boundary are left out: there the sides have come to no end.
+  void peel() {
+    for (bool any = true; any;) {
+      any = false;
+      for (const Quad &quad : quads_) {
+        Tet &beyond = neighbours[std::size_t(quad.slot)];
+        if (is_gone(quad) || *std::min_element(beyond.begin(), beyond.end()) >= 0) continue;
+        for (const std::int32_t n : beyond)
+          if (n >= 0) std::replace(neighbours[std::size_t(n)].begin(), neighbours[std::size_t(n)].end(), quad.slot, -1);
+        tets[std::size_t(quad.slot)][0] = -1;
+        any = true;
+      }
     }
   }
 
@@ -206,10 +303,11 @@ class ClosedQuads : private TetComplex {
 }  // namespace
 
 bool close_crossed_quads(Job &job, NumberedTets &solid) {
-  const Boundary &boundary = solid.boundary;
-  const Array<CrossedQuad> quads = find_crossed_quads(solid.view(), boundary.triangles, boundary.tet_of, job);
-  if (quads.empty() || 4 * quads.size() == boundary.triangles.size()) return false;
-  ClosedQuads closed(std::move(solid), quads, job);
+  Layers layers(solid, job);
+  const std::size_t first = layers.add();
+  if (layers.cover_all()) return false;
+  if (first == solid.tets.size()) return true;
+  ClosedQuads closed(std::move(solid), first, job);
   closed.let_quads_give_way();
   closed.give(solid);
   return true;

@@ -38,8 +38,7 @@ bool close_gaps(Job &job, NumberedTets &tets) {
   if (!tets.find_boundary(job)) return false;
   while (divide_at_hanging_vertices(job, tets))
     if (tets.tets.size() > most || !tets.find_boundary(job)) return false;
-  if (close_crossed_quads(job, tets) && !tets.find_boundary(job)) return false;
-  return is_solid(tets.view(), tets.boundary, job);
+  return close_crossed_quads(job, tets) && tets.find_boundary(job) && is_solid(tets.view(), tets.boundary, job);
 }
 
 }  // namespace
@@ -57,7 +56,8 @@ void make_conforming(Job &job, Boundary &boundary, Original &original) {
 }
 
 bool can_conform(Job &job, NumberedTets &tets) {
-  return close_gaps(job, tets) && !has_gaps(tets.view(), tets.boundary, job);
+  return tets.find_boundary(job) && has_gaps(tets.view(), tets.boundary, job) && close_gaps(job, tets) &&
+         !any_back_to_back(tets.view(), tets.boundary.triangles, job);
 }
 
 }  // namespace tetlod

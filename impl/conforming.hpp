@@ -11,7 +11,8 @@ namespace tetlod {
 /// boundary: as extract_boundary() leaves it, with nothing excluded.
 void make_conforming(Job &job, Boundary &boundary, Original &original);
 
-/// Whether a solid comes of these, with no hanging vertex and no crossed quad.
+/// The same of tets that have no boundary yet. True: they did not conform, and do now, with no such vertex or quad
+/// left.
 bool can_conform(Job &job, NumberedTets &tets);
 
 }  // namespace tetlod

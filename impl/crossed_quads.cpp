@@ -1,11 +1,12 @@
 #include "crossed_quads.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <tuple>
+#include <utility>
 
+#include "geometry.hpp"
 #include "predicates.hpp"
+#include "triangle_corners.hpp"
 
 namespace tetlod {
 
@@ -18,82 +19,108 @@ class CrossedQuads {
         triangles_(triangles),
         tet_of_(tet_of),
         job_(job),
+        corners_(mesh.points.size(), triangles, job),
         taken_(triangles.size(), 0, &job.memory),
         found_(&job.memory) {}
 
-  Array<CrossedQuad> find() {
-    for (std::size_t i = 0; i < triangles_.size(); i++) {
-      job_.poll_at(i, 0.9);
-      find_from(i);
-    }
+  Array<CrossedQuad> find_crossed() {
+    for_each_edge([&](std::int32_t x, const Corner &left, const Corner &right) { look_for_crossed(x, left, right); });
     return std::move(found_);
   }
 
+  Array<CrossedQuad> find_slanted() {
+    for_each_edge([&](std::int32_t x, const Corner &left, const Corner &right) {
+      const CrossedQuad quad{{left.triangle, right.triangle}, {-1, -1}, {x, left.next, left.last, right.next}};
+      if (!is_taken(quad) && may_turn(quad) && is_slanted(quad.tet) && is_between_sides(left.triangle) &&
+          is_between_sides(right.triangle))
+        take(quad);
+    });
+    return std::move(found_);
+  }
+
+  bool any_between_sides() const {
+    for (std::size_t t = 0; t < triangles_.size(); t++) {
+      job_.poll_at(t, 0.9);
+      if (is_between_sides(std::int32_t(t))) return true;
+    }
+    return false;
+  }
+
  private:
-  Triangle sorted(std::size_t i) const {
-    Triangle t = triangles_[i];
-    std::sort(t.begin(), t.end());
-    return t;
+  const Vec3 &at(std::int32_t v) const { return mesh_.points[std::size_t(v)]; }
+  Vec3 normal(std::int32_t a, std::int32_t b, std::int32_t c) const { return area_vector(at(a), at(b), at(c)); }
+  Vec3 normal(std::int32_t triangle) const {
+    const Triangle &t = triangles_[std::size_t(triangle)];
+    return normal(t[0], t[1], t[2]);
   }
 
-  /// From triangle i on; as many as there are: there is none.
-  std::size_t find_triangle(std::size_t i, const Triangle &corners) const {
-    std::size_t last = triangles_.size();
-    while (i < last) {
-      const std::size_t middle = i + (last - i) / 2;
-      if (sorted(middle) < corners)
-        i = middle + 1;
-      else
-        last = middle;
+  /// visit(x, left, right): the triangles of these corners of x have the edge from x to left.next in common.
+  template <class Visit>
+  void for_each_edge(const Visit &visit) const {
+    constexpr std::size_t most_triangles = 256;  // at a vertex
+    for (std::size_t v = 0; v < mesh_.points.size(); v++) {
+      job_.poll_at(v, 0.9);
+      const auto x = std::int32_t(v);
+      const Span<const Corner> at = corners_.of(x);
+      if (at.size() > most_triangles) continue;
+      for (const Corner &left : at)
+        for (const Corner &right : at)
+          if (x < left.next && right.last == left.next && right.next != left.last) visit(x, left, right);
     }
-    return i < triangles_.size() && sorted(i) == corners ? i : triangles_.size();
   }
 
-  /// Those whose three lowest corners are those of triangle i. Where very many triangles are at an edge there are none.
-  void find_from(std::size_t i) {
-    constexpr std::size_t most_at_edge = 64;
-    const Triangle lowest = sorted(i);
-    for (std::size_t j = i + 1; j < std::min(triangles_.size(), i + most_at_edge); j++) {
-      const Triangle next = sorted(j);
-      if (next[0] != lowest[0] || next[1] != lowest[1]) return;
-      const auto [a, b, c, d] = std::tuple(lowest[0], lowest[1], lowest[2], next[2]);
-      const std::size_t without_b = find_triangle(j, {a, c, d});
-      if (without_b == triangles_.size()) continue;
-      const std::size_t without_a = find_triangle(without_b, {b, c, d});
-      if (without_a == triangles_.size()) continue;
-      const CrossedQuad quad{{a, b, c, d}, {without_a, without_b, j, i}};
-      if (is_crossed(quad)) take(quad);
+  void look_for_crossed(std::int32_t x, const Corner &left, const Corner &right) {
+    const std::int32_t y = left.next, u = left.last, v = right.next;
+    std::int32_t beside = -1, with_x = -1, with_y = -1;
+    for (const Corner &corner : corners_.of(u)) {
+      if (corner.next != v && corner.last != v) continue;
+      if (corner.triangle == left.triangle || corner.triangle == right.triangle) continue;
+      const std::int32_t third = corner.next == v ? corner.last : corner.next;
+      if (third == x) with_x = corner.triangle;
+      if (third == y) with_y = corner.triangle;
+      if (are_back_to_back(normal(left.triangle), normal(corner.triangle))) beside = corner.triangle;
     }
+    CrossedQuad quad{{left.triangle, right.triangle}, {with_x, with_y}, {x, y, u, v}};
+    if (with_x < 0 || with_y < 0) quad.other = {beside, -1};
+    if (quad.other[0] < 0 || is_taken(quad)) return;
+    if (quad.is_closed() ? bounds_next_to_nothing(quad) : may_turn(quad)) take(quad);
+  }
+
+  bool is_taken(const CrossedQuad &quad) const {
+    const auto taken = [&](std::int32_t t) { return t >= 0 && taken_[std::size_t(t)] != 0; };
+    return taken(quad.one[0]) || taken(quad.one[1]) || taken(quad.other[0]) || taken(quad.other[1]);
   }
 
   void take(const CrossedQuad &quad) {
-    for (const std::size_t t : quad.triangles) taken_[t] = 1;
+    for (const std::int32_t t : {quad.one[0], quad.one[1], quad.other[0], quad.other[1]})
+      if (t >= 0) taken_[std::size_t(t)] = 1;
     found_.push_back(quad);
   }
 
-  const Vec3 &at(std::int32_t v) const { return mesh_.points[std::size_t(v)]; }
-
-  bool is_crossed(const CrossedQuad &quad) const {
-    return has_next_to_no_volume(quad.corners) &&
-           std::none_of(quad.triangles.begin(), quad.triangles.end(), [&](std::size_t t) {
-             return taken_[t] || is_inside(quad.corners, mesh_.tets[std::size_t(tet_of_[t])]);
-           });
-  }
-
-  bool has_next_to_no_volume(const Tet &t) const {
-    constexpr double most = 0.1;
+  /// Over the cube of the longest side, along an axis.
+  double volume_of(const Tet &t) const {
     Vec3 sides[3];
     double longest = 0;
     for (std::size_t k = 0; k < 3; k++) {
       sides[k] = at(t[k + 1]) - at(t[0]);
       for (int i = 0; i < 3; i++) longest = std::max(longest, std::abs(sides[k][i]));
     }
-    return std::abs(glm::dot(glm::cross(sides[0] / longest, sides[1] / longest), sides[2] / longest)) <= most;
+    return std::abs(glm::dot(glm::cross(sides[0] / longest, sides[1] / longest), sides[2] / longest));
   }
 
-  /// Then the quad is a thin solid. The tet has three of its corners.
+  bool bounds_next_to_nothing(const CrossedQuad &quad) const {
+    constexpr double most = 0.1;
+    if (volume_of(quad.tet) > most) return false;
+    const auto is_of_a_solid = [&](std::int32_t t) {
+      return is_inside(quad.tet, mesh_.tets[std::size_t(tet_of_[std::size_t(t)])]);
+    };
+    return !is_of_a_solid(quad.one[0]) && !is_of_a_solid(quad.one[1]) && !is_of_a_solid(quad.other[0]) &&
+           !is_of_a_solid(quad.other[1]);
+  }
+
+  /// Then the four triangles bound a thin solid. The tet has three of its corners.
   bool is_inside(const Tet &corners, const Tet &tet) const {
-    const auto is_another = [&](std::int32_t v) { return !std::binary_search(corners.begin(), corners.end(), v); };
+    const auto is_another = [&](std::int32_t v) { return !has(corners, v); };
     const auto apex = std::find_if(tet.begin(), tet.end(), is_another);
     if (apex == tet.end()) return true;  // it is that tet
     const int side = side_of(corners);
@@ -107,10 +134,42 @@ class CrossedQuads {
 
   int side_of(const Tet &t) const { return orientation(at(t[0]), at(t[1]), at(t[2]), at(t[3])); }
 
+  /// The diagonal of the first two: the quad is plane, and convex.
+  bool may_turn(const CrossedQuad &quad) const {
+    constexpr double plane = 1e-4, least = 0.01;
+    const auto [x, y, u, v] = quad.tet;
+    const Vec3 n = normal(x, y, u);
+    return volume_of(quad.tet) <= plane && glm::dot(n, normal(v, y, u)) > least * length2(n) &&
+           glm::dot(n, normal(u, x, v)) > least * length2(n);
+  }
+
+  /// A vertex of the one triangle lies in the circle of the other: opposite angles are more than two right ones.
+  bool is_slanted(const Tet &quad) const {
+    constexpr double rounding = 1e-6;
+    const auto [x, y, u, v] = quad;
+    const auto angle = [&, x = x, y = y](std::int32_t at_corner) {
+      const Vec3 a = at(x) - at(at_corner), b = at(y) - at(at_corner);
+      const double scale = std::sqrt(length2(a) * length2(b));
+      return std::pair(glm::dot(a, b) / scale, std::sqrt(length2(glm::cross(a, b))) / scale);
+    };
+    const auto [cos_u, sin_u] = angle(u);
+    const auto [cos_v, sin_v] = angle(v);
+    return sin_u * cos_v + cos_u * sin_v < -rounding;
+  }
+
+  bool is_between_sides(std::int32_t triangle) const {
+    const Triangle &t = triangles_[std::size_t(triangle)];
+    for (std::size_t k = 0; k < 3; k++)
+      for (const Corner &corner : corners_.of(t[k]))
+        if (corner.last == t[(k + 1) % 3] && are_back_to_back(normal(triangle), normal(corner.triangle))) return true;
+    return false;
+  }
+
   const MeshView &mesh_;
   Span<const Triangle> triangles_;
   Span<const std::int32_t> tet_of_;
   Job &job_;
+  TriangleCorners corners_;
   Array<std::uint8_t> taken_;  // of each triangle, whether a quad has it
   Array<CrossedQuad> found_;
 };
@@ -119,7 +178,16 @@ class CrossedQuads {
 
 Array<CrossedQuad> find_crossed_quads(const MeshView &mesh, Span<const Triangle> triangles,
                                       Span<const std::int32_t> tet_of, Job &job) {
-  return CrossedQuads(mesh, triangles, tet_of, job).find();
+  return CrossedQuads(mesh, triangles, tet_of, job).find_crossed();
+}
+
+Array<CrossedQuad> find_slanted_quads(const MeshView &mesh, Span<const Triangle> triangles,
+                                      Span<const std::int32_t> tet_of, Job &job) {
+  return CrossedQuads(mesh, triangles, tet_of, job).find_slanted();
+}
+
+bool any_back_to_back(const MeshView &mesh, Span<const Triangle> triangles, Job &job) {
+  return CrossedQuads(mesh, triangles, {}, job).any_between_sides();
 }
 
 }  // namespace tetlod

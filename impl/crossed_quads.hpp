@@ -8,16 +8,28 @@
 
 namespace tetlod {
 
-/// Four triangles that lie on one another: the faces of a tet with next to no volume, a tenth of the cube of its
-/// longest side at most, and of none that the mesh has.
+/// Two triangles of a closed surface with a diagonal in between, and triangles that lie back to back on them and have
+/// the other diagonal.
 struct CrossedQuad {
-  Tet corners;                           ///< ascending
-  std::array<std::size_t, 4> triangles;  ///< k: the one without corner k
+  std::array<std::int32_t, 2> one;
+  std::array<std::int32_t, 2> other;  ///< the two that fill the quad, or one of the others at that diagonal, and -1
+  Tet tet;                            ///< that fits on the first two, as they are seen from outside; with no volume
+  bool is_closed() const { return other[1] >= 0; }  ///< by that tet
 };
 
-/// Among triangles that one tet each has, tet_of, in the order of their lowest vertex, the middle one, the highest.
-/// Each triangle is of one quad at most.
+/// triangles: that one tet each has, tet_of, seen from outside. The tet of four triangles may have a tenth of the cube
+/// of its longest side, and is none of the mesh; that of others is flat, but for rounding. Each triangle is of one quad
+/// at most.
 Array<CrossedQuad> find_crossed_quads(const MeshView &mesh, Span<const Triangle> triangles,
                                       Span<const std::int32_t> tet_of, Job &job);
+
+/// Pairs of triangles with an edge in common, each of which has one that lies back to back on another at one of its
+/// edges, where the other diagonal of their quad is a Delaunay edge, and theirs is none: `other` is -1, -1. When all of
+/// both sides are, the sides are the same, but for squares.
+Array<CrossedQuad> find_slanted_quads(const MeshView &mesh, Span<const Triangle> triangles,
+                                      Span<const std::int32_t> tet_of, Job &job);
+
+/// Whether two triangles at one edge lie back to back: a slit ends there, or a solid that is next to nothing thick.
+bool any_back_to_back(const MeshView &mesh, Span<const Triangle> triangles, Job &job);
 
 }  // namespace tetlod

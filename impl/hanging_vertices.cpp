@@ -2,44 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <numeric>
-#include <tuple>
 
 #include "geometry.hpp"
 #include "predicates.hpp"
-#include "whole_arrays.hpp"
+#include "triangle_corners.hpp"
 
 namespace tetlod {
 
 namespace {
-
-/// A corner of a triangle: its two other vertices.
-struct Corner {
-  std::int32_t next, last, triangle;
-};
-
-/// Those at each vertex.
-class CornersOfVertices {
- public:
-  CornersOfVertices(std::size_t vertices, Span<const Triangle> triangles, Job &job)
-      : begin_(vertices + 1, 0, &job.memory), corners_(3 * triangles.size(), Corner{}, &job.memory) {
-    for (const Triangle &t : triangles)
-      for (const std::int32_t v : t) begin_[std::size_t(v) + 1]++;
-    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
-    Array<std::uint32_t> place(begin_.begin(), begin_.end() - 1, &job.memory);
-    for (std::size_t i = 0; i < triangles.size(); i++)
-      for (std::size_t k = 0; k < 3; k++) {
-        const Triangle &t = triangles[i];
-        corners_[place[std::size_t(t[k])]++] = {t[(k + 1) % 3], t[(k + 2) % 3], std::int32_t(i)};
-      }
-  }
-  Span<const Corner> of(std::size_t v) const { return {corners_.data() + begin_[v], begin_[v + 1] - begin_[v]}; }
-
- private:
-  Array<std::uint32_t> begin_;
-  Array<Corner> corners_;
-};
 
 /// Coordinates may be of single precision.
 double rounding_of(const MeshView &mesh, Span<const Triangle> triangles) {
@@ -67,41 +37,31 @@ class HangingVertices {
         corners_(mesh.points.size(), triangles, job),
         rounding_(rounding_of(mesh, triangles)) {}
 
+  /// Those with an edge to an end of theirs.
   Array<HangingVertex> find() const {
-    constexpr std::size_t most_triangles = 256;
     Array<HangingVertex> found(&job_.memory);
     for (std::size_t v = 0; v < mesh_.points.size(); v++) {
       job_.poll_at(v, 0.9);
-      const Span<const Corner> at = corners_.of(v);
-      for (std::size_t i = 1; i < at.size() && at.size() <= most_triangles; i++)
+      const Span<const Corner> at = corners_.of(std::int32_t(v));
+      for (std::size_t i = 1; i < at.size() && at.size() <= most_triangles_; i++)
         for (std::size_t j = 0; j < i; j++) look_at(std::int32_t(v), at[i], at[j], found);
     }
     return found;
   }
 
-  /// For each edge with one hanging vertex, that has edges to both ends, and the triangles on either side of it.
-  Array<DividedTriangle> find_divided_triangles() const {
-    Array<HangingVertex> hanging = find();
-    for (HangingVertex &h : hanging)
-      if (h.from > h.to) std::swap(h.from, h.to);
-    std::sort(hanging.begin(), hanging.end(), [](const HangingVertex &a, const HangingVertex &b) {
-      return std::tie(a.from, a.to, a.vertex) < std::tie(b.from, b.to, b.vertex);
-    });
-    Array<std::uint8_t> edges(triangles_.size(), 0, &job_.memory);
-    Array<DividedTriangle> pairs(&job_.memory), divided(&job_.memory);
-    for (std::size_t i = 1; i < hanging.size(); i++) {
-      const HangingVertex &h = hanging[i], &before = hanging[i - 1];
-      if (h.from != before.from || h.to != before.to || h.vertex != before.vertex) continue;  // not from both ends
-      for (const bool side : {false, true}) {
-        const DividedTriangle pair = triangles_at(h, side);
-        if (pair.coarse < 0) continue;
-        edges[std::size_t(pair.coarse)]++;
-        pairs.push_back(pair);
-      }
+  /// Those with edges to the vertices opposite the edge that they lie on.
+  Array<HangingVertex> find_on_diagonals() const {
+    Array<HangingVertex> found(&job_.memory);
+    for (std::size_t v = 0; v < mesh_.points.size(); v++) {
+      job_.poll_at(v, 0.9);
+      const Span<const Corner> at = corners_.of(std::int32_t(v));
+      if (at.size() > most_triangles_) continue;
+      for (const Corner &left : at)
+        for (const Corner &right : at)
+          if (std::int32_t(v) < left.next && right.last == left.next)
+            look_at_diagonal(std::int32_t(v), left, right, found);
     }
-    std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(divided),
-                 [&](const DividedTriangle &pair) { return edges[std::size_t(pair.coarse)] == 3; });
-    return divided;
+    return found;
   }
 
  private:
@@ -116,37 +76,45 @@ class HangingVertices {
     if (length2(way(v, near)) > length2(way(v, far))) std::swap(near, far);
     const HangingVertex hanging{near, v, far};
     if (lies_on(way(v, near), way(v, far), rounding_) &&
-        (triangles_at(hanging, false).coarse >= 0 || triangles_at(hanging, true).coarse >= 0))
+        (lie_on_one_another(hanging, false) || lie_on_one_another(hanging, true)))
       found.push_back(hanging);
   }
 
-  /// That lie on one another on one side of the edges: what is outside of the one solid is inside of the other. -1:
-  /// there are none.
-  DividedTriangle triangles_at(const HangingVertex &h, bool side) const {
-    const Span<const Corner> corners = corners_.of(std::size_t(h.from));
+  /// From vertex v to left.next, which the two triangles have in common.
+  void look_at_diagonal(std::int32_t v, const Corner &left, const Corner &right, Array<HangingVertex> &found) const {
+    for (const Corner &corner : corners_.of(left.last)) {
+      const std::int32_t on = corner.next;
+      if (on == v || on == left.next || length2(way(v, on)) >= length2(way(v, left.next))) continue;
+      if (!lies_on(way(v, on), way(v, left.next), rounding_)) continue;
+      if (!are_back_to_back(normal(left.triangle), normal(corner.triangle))) continue;
+      const Span<const Corner> beyond = corners_.of(right.next);
+      if (std::any_of(beyond.begin(), beyond.end(), [&](const Corner &c) { return c.next == on || c.last == on; }))
+        found.push_back({on, v, left.next});
+    }
+  }
+
+  /// Whether triangles do on one side of the edges: what is outside of the one solid is inside of the other.
+  bool lie_on_one_another(const HangingVertex &h, bool side) const {
+    const Span<const Corner> corners = corners_.of(h.from);
     for (const Corner &coarse : corners)
       for (const Corner &fine : corners)
         if ((side ? coarse.last : coarse.next) == h.to && (side ? fine.next : fine.last) == h.vertex &&
-            are_back_to_back(coarse.triangle, fine.triangle))
-          return {coarse.triangle, fine.triangle};
-    return {-1, -1};
+            are_back_to_back(normal(coarse.triangle), normal(fine.triangle)))
+          return true;
+    return false;
   }
 
-  /// But for rounding.
-  bool are_back_to_back(std::int32_t a, std::int32_t b) const {
-    constexpr double rounding = 0.01;
-    const auto normal = [&](std::int32_t triangle) {
-      const Triangle &t = triangles_[std::size_t(triangle)];
-      return glm::cross(way(t[0], t[1]), way(t[0], t[2]));
-    };
-    const Vec3 n = normal(a), m = normal(b);
-    return glm::dot(n, m) < 0 && length2(glm::cross(n, m)) <= rounding * rounding * length2(n) * length2(m);
+  Vec3 normal(std::int32_t triangle) const {
+    const Triangle &t = triangles_[std::size_t(triangle)];
+    return glm::cross(way(t[0], t[1]), way(t[0], t[2]));
   }
+
+  static constexpr std::size_t most_triangles_ = 256;  // at a vertex
 
   const MeshView &mesh_;
   Span<const Triangle> triangles_;
   Job &job_;
-  CornersOfVertices corners_;
+  TriangleCorners corners_;
   double rounding_;
 };
 
@@ -235,12 +203,11 @@ Array<HangingVertex> find_hanging_vertices(const MeshView &mesh, Span<const Tria
   return HangingVertices(mesh, triangles, job).find();
 }
 
-Array<DividedTriangle> find_divided_triangles(const MeshView &mesh, Span<const Triangle> triangles, Job &job) {
-  return HangingVertices(mesh, triangles, job).find_divided_triangles();
-}
-
 bool divide_at_hanging_vertices(Job &job, NumberedTets &tets) {
-  const Array<HangingVertex> hanging = find_hanging_vertices(tets.view(), tets.boundary.triangles, job);
+  const MeshView mesh = tets.view();
+  const HangingVertices vertices(mesh, tets.boundary.triangles, job);
+  Array<HangingVertex> hanging = vertices.find();
+  if (hanging.empty()) hanging = vertices.find_on_diagonals();
   if (hanging.empty()) return false;
   Division division(tets, hanging, job);
   bool any = false;

@@ -13,12 +13,6 @@ struct HangingVertex {
 /// Of a closed surface, seen from outside. At vertices of very many triangles none are looked for.
 Array<HangingVertex> find_hanging_vertices(const MeshView &mesh, Span<const Triangle> triangles, Job &job);
 
-/// Such triangles, where the coarse one has a hanging vertex, with edges to both ends, on each of its edges.
-struct DividedTriangle {
-  std::int32_t coarse, fine;
-};
-Array<DividedTriangle> find_divided_triangles(const MeshView &mesh, Span<const Triangle> triangles, Job &job);
-
 /// Divides the tets at edges of the boundary that have a hanging vertex, once each, unless one would turn over. The
 /// boundary is of before. False: there is nothing to divide.
 bool divide_at_hanging_vertices(Job &job, NumberedTets &tets);

@@ -4,10 +4,8 @@
 #include <tuple>
 
 #include "conforming.hpp"
-#include "crossed_quads.hpp"
 #include "disjoint_sets.hpp"
 #include "face_sweep.hpp"
-#include "hanging_vertices.hpp"
 
 namespace tetlod {
 
@@ -29,7 +27,7 @@ class TouchingParts {
     if (any_apart()) {
       NumberedTets tets = tets_by_place();
       join_across_faces(tets);
-      if (any_apart()) join_across_gaps(tets);
+      if (any_apart() && can_conform(job_, tets)) join_across_faces(tets);
     }
     if (any_apart()) split_places();
     std::int64_t merged = 0;
@@ -73,29 +71,11 @@ class TouchingParts {
   }
 
   void join_across_faces(const NumberedTets &tets) {
+    const auto first_point = [&](std::size_t t) { return tets_[std::size_t(tets.number[t])][0]; };
     for_each_face(tets.view(), {}, job_, [&](const FaceUse *first, const FaceUse *last) {
-      for (const FaceUse *use = first + 1; use < last; use++) join(tets, first->tet(), use->tet());
+      for (const FaceUse *use = first + 1; use < last; use++)
+        parts_.join(first_point(first->tet()), first_point(use->tet()));
     });
-  }
-
-  /// Where then, all at one place merged, all conforms: faces that divide one another in other ways stay in contact.
-  void join_across_gaps(NumberedTets &tets) {
-    if (!tets.find_boundary(job_)) return;
-    const Boundary &boundary = tets.boundary;
-    const auto quads = find_crossed_quads(tets.view(), boundary.triangles, boundary.tet_of, job_);
-    const auto divided = find_divided_triangles(tets.view(), boundary.triangles, job_);
-    if (quads.empty() && divided.empty()) return;
-    NumberedTets trial(tets.view(), tets.number, job_.memory);
-    if (!can_conform(job_, trial)) return;
-    const auto tet_of = [&](std::size_t triangle) { return std::size_t(boundary.tet_of[triangle]); };
-    for (const CrossedQuad &quad : quads)
-      for (const std::size_t t : quad.triangles) join(tets, tet_of(quad.triangles[0]), tet_of(t));
-    for (const DividedTriangle &pair : divided)
-      join(tets, tet_of(std::size_t(pair.coarse)), tet_of(std::size_t(pair.fine)));
-  }
-
-  void join(const NumberedTets &tets, std::size_t t, std::size_t other) {
-    parts_.join(tets_[std::size_t(tets.number[t])][0], tets_[std::size_t(tets.number[other])][0]);
   }
 
   /// Where several parts are at one place, the lowest point of each stands for that part's.

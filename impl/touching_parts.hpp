@@ -5,12 +5,12 @@
 
 namespace tetlod {
 
-/// Where parts have a face in common, a crossed quad, or faces of which one divides the other, the mesh goes on. Where
-/// they only touch, at a vertex, an edge or where faces lie on one another that are not the same, it does not, and
-/// points of several parts at one place would make slits and edges of four triangles of it. representative: as
-/// merge_points() leaves it; of points at one place, each part's become one of its own. Parts: tets that have points in
-/// common, as submitted, or a face or quad by place. Tets with an unused vertex are none. Returns how many are merged
-/// away then.
+/// Where parts have a face in common the mesh goes on from the one to the other, also where it conforms only after
+/// make_conforming() of all. Where they only touch, at a vertex, an edge or where faces lie on one another in other
+/// ways, it does not, and points of several parts at one place would make slits and edges of four triangles of it.
+/// representative: as merge_points() leaves it; of points at one place, each part's become one of its own. Parts: tets
+/// that have points in common, as submitted, or a face by place. Tets with an unused vertex are none. Returns how many
+/// are merged away then.
 std::int64_t keep_touching_parts_apart(Span<const Vec3> points, Span<const Tet> tets, Span<const std::uint8_t> used,
                                        Job &job, Array<std::int32_t> &representative);
 

@@ -71,17 +71,23 @@ Mesh cubes_in_five(int n) {
   return mesh;
 }
 
-Mesh refined_cubes(int n, const std::function<bool(const Cell &)> &is_fine) {
+Mesh refined_cubes(int n, const std::function<bool(const Cell &)> &is_fine, unsigned seed) {
   Mesh mesh;
+  std::mt19937_64 random(seed);
   std::map<Cell, std::int32_t> vertex;  // of a lattice twice as fine
   const auto add = [&](const Mesh &cell, const Cell &low, int step) {
+    const std::uint64_t mirrored = seed == 0 ? 0 : random();
+    const auto at = [&](const Vec3 &p, int k) {
+      const int x = int(p[k]);
+      return low[std::size_t(k)] + step * (mirrored >> k & 1 ? 1 - x : x);
+    };
     for (const Tet &t : cell.tets) {
       Tet tet;
       for (std::size_t k = 0; k < 4; k++) {
         const Vec3 &p = cell.points[std::size_t(t[k])];
-        const Cell at{low[0] + step * int(p.x), low[1] + step * int(p.y), low[2] + step * int(p.z)};
-        const auto [found, is_new] = vertex.emplace(at, std::int32_t(mesh.points.size()));
-        if (is_new) mesh.points.push_back(Vec3(at[0], at[1], at[2]) / double(2 * n));
+        const Cell place{at(p, 0), at(p, 1), at(p, 2)};
+        const auto [found, is_new] = vertex.emplace(place, std::int32_t(mesh.points.size()));
+        if (is_new) mesh.points.push_back(Vec3(place[0], place[1], place[2]) / double(2 * n));
         tet[k] = found->second;
       }
       mesh.tets.push_back(tet);

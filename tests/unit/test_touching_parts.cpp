@@ -105,7 +105,7 @@ TEST_F(TouchingParts, ThatShareFacesAreOne) {
 TEST_F(TouchingParts, StayApart) {
   for (const auto &[cells, corner] : {std::pair(2, Vec3(1, 1, 0)),     // along an edge
                                       std::pair(2, Vec3(1, 1, 1)),     // at a vertex
-                                      std::pair(3, Vec3(1, 0, 0))}) {  // smaller triangles
+                                      std::pair(5, Vec3(1, 0, 0))}) {  // smaller triangles
     mesh = {};
     used.clear();
     add_cube(2, Vec3(0));
@@ -131,7 +131,7 @@ TEST_F(TouchingParts, ThatShareDividedFacesAreOne) {
 TEST_F(TouchingParts, EachPlaceHasAPointOfEachPart) {
   add_cube(2, Vec3(0));
   add_cube(2, Vec3(1, 0, 0));
-  add_cube(3, Vec3(0.5, 0, 1));
+  add_cube(5, Vec3(0.5, 0, 1));
   EXPECT_EQ(merge(), 9);
   expect_as_by_brute_force();
 }
@@ -140,7 +140,7 @@ TEST_F(TouchingParts, EachPlaceHasAPointOfEachPart) {
 TEST_F(TouchingParts, OneTieMakesOneOfTwo) {
   add_cube(2, Vec3(0));
   const auto first = std::int32_t(mesh.points.size());
-  add_cube(3, Vec3(1, 0, 0));
+  add_cube(5, Vec3(1, 0, 0));
   std::int32_t twin = 0, other = first;
   while (mesh.points[std::size_t(twin)] != Vec3(1)) twin++;
   while (mesh.points[std::size_t(other)] != Vec3(1)) other++;
@@ -177,7 +177,7 @@ TEST_F(TouchingParts, AsByBruteForce) {
 /// TetGen takes each place once: where it is asked for, all points there are one.
 TEST_F(TouchingParts, AreMergedWhereNoContactsAreTaken) {
   add_cube(2, Vec3(0));
-  add_cube(3, Vec3(1, 0, 0));
+  add_cube(5, Vec3(1, 0, 0));
   Options options;
   for (const bool collapses : {false, true}) {
     options.target_ratio = collapses ? 0.1 : 0;

@@ -1,0 +1,44 @@
+// The corners of a surface's triangles, vertex by vertex.
+#pragma once
+#include <numeric>
+
+#include "whole_arrays.hpp"
+
+namespace tetlod {
+
+/// Of a vertex in a triangle: the two others, in the triangle's order.
+struct Corner {
+  std::int32_t next, last, triangle;
+};
+
+class TriangleCorners {
+ public:
+  TriangleCorners(std::size_t vertices, Span<const Triangle> triangles, Job &job)
+      : begin_(vertices + 1, 0, &job.memory), corners_(3 * triangles.size(), Corner{}, &job.memory) {
+    for (const Triangle &t : triangles)
+      for (const std::int32_t v : t) begin_[std::size_t(v) + 1]++;
+    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+    Array<std::uint32_t> place(begin_.begin(), begin_.end() - 1, &job.memory);
+    for (std::size_t i = 0; i < triangles.size(); i++)
+      for (std::size_t k = 0; k < 3; k++) {
+        const Triangle &t = triangles[i];
+        corners_[place[std::size_t(t[k])]++] = {t[(k + 1) % 3], t[(k + 2) % 3], std::int32_t(i)};
+      }
+  }
+  Span<const Corner> of(std::int32_t v) const {
+    return {corners_.data() + begin_[std::size_t(v)], begin_[std::size_t(v) + 1] - begin_[std::size_t(v)]};
+  }
+
+ private:
+  Array<std::uint32_t> begin_;
+  Array<Corner> corners_;
+};
+
+/// Whether normals are opposite, but for rounding.
+inline bool are_back_to_back(const Vec3 &normal, const Vec3 &other) {
+  constexpr double rounding = 0.01;
+  return glm::dot(normal, other) < 0 &&
+         length2(glm::cross(normal, other)) <= rounding * rounding * length2(normal) * length2(other);
+}
+
+}  // namespace tetlod
