@@ -26,8 +26,10 @@ class TouchingParts {
     join_tets();
     if (any_apart()) {
       NumberedTets tets = tets_by_place();
+      const std::int64_t parts = parts_.count();
       join_across_faces(tets);
-      if (any_apart() && can_conform(job_, tets)) join_across_faces(tets);
+      const bool are_of_one_mesh = parts_.count() < parts;  // not of an assembly, where some happen to fit
+      if (are_of_one_mesh && any_apart() && can_conform(job_, tets)) join_across_faces(tets);
     }
     if (any_apart()) split_places();
     std::int64_t merged = 0;

@@ -5,8 +5,8 @@
 
 namespace tetlod {
 
-/// Where parts have a face in common the mesh goes on from the one to the other, also where it conforms only after
-/// make_conforming() of all. Where they only touch, at a vertex, an edge or where faces lie on one another in other
+/// Where parts have a face in common the mesh goes on from the one to the other; if any have, also where it conforms
+/// only after make_conforming(). Where they only touch, at a vertex, an edge or where faces lie on one another in other
 /// ways, it does not, and points of several parts at one place would make slits and edges of four triangles of it.
 /// representative: as merge_points() leaves it; of points at one place, each part's become one of its own. Parts: tets
 /// that have points in common, as submitted, or a face by place. Tets with an unused vertex are none. Returns how many
