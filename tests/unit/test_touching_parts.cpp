@@ -115,7 +115,8 @@ TEST_F(TouchingParts, StayApart) {
   }
 }
 
-/// The second divides the first's faces; the third has faces in common with it; the fourth cuts its quads the other way.
+/// The second divides the first's faces; the third has faces in common with it; the fourth cuts its quads the other
+/// way.
 TEST_F(TouchingParts, OfAMeshAreOneWhereItConformsAfterwards) {
   add_cube(2, Vec3(0));
   add_cube(4, Vec3(1, 0, 0));
