@@ -11,8 +11,7 @@ namespace tetlod {
 /// boundary: as extract_boundary() leaves it, with nothing excluded.
 void make_conforming(Job &job, Boundary &boundary, Original &original);
 
-/// The same of tets that have no boundary yet. True: they did not conform, and do now, with no such vertex or quad
-/// left.
+/// The same of tets that have no boundary yet. True: they did not conform, and do now, with no slit left.
 bool can_conform(Job &job, NumberedTets &tets);
 
 }  // namespace tetlod

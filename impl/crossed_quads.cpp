@@ -57,12 +57,10 @@ class CrossedQuads {
   /// visit(x, left, right): the triangles of these corners of x have the edge from x to left.next in common.
   template <class Visit>
   void for_each_edge(const Visit &visit) const {
-    constexpr std::size_t most_triangles = 256;  // at a vertex
     for (std::size_t v = 0; v < mesh_.points.size(); v++) {
       job_.poll_at(v, 0.9);
       const auto x = std::int32_t(v);
       const Span<const Corner> at = corners_.of(x);
-      if (at.size() > most_triangles) continue;
       for (const Corner &left : at)
         for (const Corner &right : at)
           if (x < left.next && right.last == left.next && right.next != left.last) visit(x, left, right);

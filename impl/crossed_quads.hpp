@@ -19,7 +19,7 @@ struct CrossedQuad {
 
 /// triangles: that one tet each has, tet_of, seen from outside. The tet of four triangles may have a tenth of the cube
 /// of its longest side, and is none of the mesh; that of others is flat, but for rounding. Each triangle is of one quad
-/// at most.
+/// at most. At vertices of very many triangles none are looked for.
 Array<CrossedQuad> find_crossed_quads(const MeshView &mesh, Span<const Triangle> triangles,
                                       Span<const std::int32_t> tet_of, Job &job);
 

@@ -43,7 +43,7 @@ class HangingVertices {
     for (std::size_t v = 0; v < mesh_.points.size(); v++) {
       job_.poll_at(v, 0.9);
       const Span<const Corner> at = corners_.of(std::int32_t(v));
-      for (std::size_t i = 1; i < at.size() && at.size() <= most_triangles_; i++)
+      for (std::size_t i = 1; i < at.size(); i++)
         for (std::size_t j = 0; j < i; j++) look_at(std::int32_t(v), at[i], at[j], found);
     }
     return found;
@@ -55,7 +55,6 @@ class HangingVertices {
     for (std::size_t v = 0; v < mesh_.points.size(); v++) {
       job_.poll_at(v, 0.9);
       const Span<const Corner> at = corners_.of(std::int32_t(v));
-      if (at.size() > most_triangles_) continue;
       for (const Corner &left : at)
         for (const Corner &right : at)
           if (std::int32_t(v) < left.next && right.last == left.next)
@@ -108,8 +107,6 @@ class HangingVertices {
     const Triangle &t = triangles_[std::size_t(triangle)];
     return glm::cross(way(t[0], t[1]), way(t[0], t[2]));
   }
-
-  static constexpr std::size_t most_triangles_ = 256;  // at a vertex
 
   const MeshView &mesh_;
   Span<const Triangle> triangles_;

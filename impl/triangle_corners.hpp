@@ -25,8 +25,11 @@ class TriangleCorners {
         corners_[place[std::size_t(t[k])]++] = {t[(k + 1) % 3], t[(k + 2) % 3], std::int32_t(i)};
       }
   }
+  /// None where there are very many: who looks at each with each would look long.
   Span<const Corner> of(std::int32_t v) const {
-    return {corners_.data() + begin_[std::size_t(v)], begin_[std::size_t(v) + 1] - begin_[std::size_t(v)]};
+    constexpr std::size_t most = 256;
+    const std::size_t begin = begin_[std::size_t(v)], count = begin_[std::size_t(v) + 1] - begin;
+    return {corners_.data() + begin, count > most ? 0 : count};
   }
 
  private:

@@ -1,6 +1,7 @@
 // Meshes that are refined in places: vertices hang on the edges of coarser neighbours.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <random>
 
@@ -70,6 +71,23 @@ TEST_F(HangingVertices, AreNoneInSoundMeshes) {
     ASSERT_EQ(original.view.tets.size(), mesh.tets.size());
     for (std::size_t t = 0; t < mesh.tets.size(); t++) EXPECT_EQ(original.view.tets[t], mesh.tets[t]);
   }
+}
+
+/// Two vertices have a triangle with each of the others.
+TEST_F(HangingVertices, AreNotLookedForAmongVeryMany) {
+  constexpr int n = 100000;
+  Mesh mesh;
+  mesh.points = {Vec3(0), Vec3(0, 0, 1)};
+  for (std::int32_t i = 0; i < n; i++) {
+    const double angle = 2 * 3.141592653589793 * i / n;
+    mesh.points.push_back(Vec3(std::cos(angle), std::sin(angle), 0));
+    mesh.tets.push_back({0, 1, 2 + i, 2 + (i + 1) % n});
+  }
+  mesh.scalars.assign(mesh.points.size(), 0);
+  const auto begin = std::chrono::steady_clock::now();
+  prepare(mesh);
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(), 2);
+  EXPECT_EQ(boundary.triangles.size(), 2U * n);
 }
 
 TEST_F(HangingVertices, OfOneFineCell) {
