@@ -3,7 +3,9 @@
 #include "close_quads.hpp"
 #include "crossed_quads.hpp"
 #include "hanging_vertices.hpp"
+#include "nested_solids.hpp"
 #include "status.hpp"
+#include "surface_distance.hpp"
 #include "surface_topology.hpp"
 
 namespace tetlod {
@@ -18,13 +20,16 @@ bool has_gaps(const MeshView &mesh, const Boundary &boundary, Job &job) {
          !find_crossed_quads(mesh, boundary.triangles, boundary.tet_of, job).empty();
 }
 
-/// Its boundary bounds wedges of material.
-bool is_solid(const MeshView &mesh, const Boundary &boundary, Job &job) {
+/// Its boundary bounds wedges of material, and, if that is asked for, touches itself nowhere.
+bool is_solid(const NumberedTets &tets, bool nor_touches_itself, Job &job) {
   Surface surface(job.memory);
-  make_surface(mesh, boundary.triangles, job, surface);
+  make_surface(tets.view(), tets.boundary.triangles, job, surface);
   SurfaceTopology topology(job.memory);
   try {
     find_topology(surface.points, surface.triangles, job, topology);
+    if (!nor_touches_itself) return true;
+    TreeOnDemand tree(surface);
+    refuse_intersections(surface, topology, tree, 0, job);
   } catch (const Error &error) {
     if (error.status() != Status::mesh_intersecting) throw;
     return false;
@@ -32,13 +37,13 @@ bool is_solid(const MeshView &mesh, const Boundary &boundary, Job &job) {
   return true;
 }
 
-/// False: no solid has come of it.
+/// False: they come to no end.
 bool close_gaps(Job &job, NumberedTets &tets) {
   const std::size_t most = largest_growth * tets.tets.size();
   if (!tets.find_boundary(job)) return false;
   while (divide_at_hanging_vertices(job, tets))
     if (tets.tets.size() > most || !tets.find_boundary(job)) return false;
-  return close_crossed_quads(job, tets) && tets.find_boundary(job) && is_solid(tets.view(), tets.boundary, job);
+  return close_crossed_quads(job, tets) && tets.find_boundary(job);
 }
 
 }  // namespace
@@ -46,7 +51,7 @@ bool close_gaps(Job &job, NumberedTets &tets) {
 void make_conforming(Job &job, Boundary &boundary, Original &original) {
   if (!has_gaps(original.view, boundary, job)) return;
   NumberedTets tets(original.view, original.tet_number, job.memory);
-  if (!close_gaps(job, tets)) return;
+  if (!close_gaps(job, tets) || !is_solid(tets, false, job)) return;
   tets.boundary.flat_tets += boundary.flat_tets;
   tets.boundary.duplicate_tets += boundary.duplicate_tets;
   boundary = std::move(tets.boundary);
@@ -57,7 +62,7 @@ void make_conforming(Job &job, Boundary &boundary, Original &original) {
 
 bool can_conform(Job &job, NumberedTets &tets) {
   return tets.find_boundary(job) && has_gaps(tets.view(), tets.boundary, job) && close_gaps(job, tets) &&
-         !any_back_to_back(tets.view(), tets.boundary.triangles, job);
+         is_solid(tets, true, job);
 }
 
 }  // namespace tetlod

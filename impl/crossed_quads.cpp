@@ -38,14 +38,6 @@ class CrossedQuads {
     return std::move(found_);
   }
 
-  bool any_between_sides() const {
-    for (std::size_t t = 0; t < triangles_.size(); t++) {
-      job_.poll_at(t, 0.9);
-      if (is_between_sides(std::int32_t(t))) return true;
-    }
-    return false;
-  }
-
  private:
   const Vec3 &at(std::int32_t v) const { return mesh_.points[std::size_t(v)]; }
   Vec3 normal(std::int32_t a, std::int32_t b, std::int32_t c) const { return area_vector(at(a), at(b), at(c)); }
@@ -182,10 +174,6 @@ Array<CrossedQuad> find_crossed_quads(const MeshView &mesh, Span<const Triangle>
 Array<CrossedQuad> find_slanted_quads(const MeshView &mesh, Span<const Triangle> triangles,
                                       Span<const std::int32_t> tet_of, Job &job) {
   return CrossedQuads(mesh, triangles, tet_of, job).find_slanted();
-}
-
-bool any_back_to_back(const MeshView &mesh, Span<const Triangle> triangles, Job &job) {
-  return CrossedQuads(mesh, triangles, {}, job).any_between_sides();
 }
 
 }  // namespace tetlod

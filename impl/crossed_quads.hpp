@@ -29,7 +29,4 @@ Array<CrossedQuad> find_crossed_quads(const MeshView &mesh, Span<const Triangle>
 Array<CrossedQuad> find_slanted_quads(const MeshView &mesh, Span<const Triangle> triangles,
                                       Span<const std::int32_t> tet_of, Job &job);
 
-/// Whether two triangles at one edge lie back to back: a slit ends there, or a solid that is next to nothing thick.
-bool any_back_to_back(const MeshView &mesh, Span<const Triangle> triangles, Job &job);
-
 }  // namespace tetlod

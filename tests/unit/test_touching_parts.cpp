@@ -127,6 +127,16 @@ TEST_F(TouchingParts, OfAMeshAreOneWhereItConformsAfterwards) {
   EXPECT_EQ(merge(), 9 + 9 + 9);
 }
 
+/// The third would fit the first, but where the fourth lies on it slits would be left.
+TEST_F(TouchingParts, StayApartWhereNotAllConforms) {
+  add_cube(2, Vec3(0));
+  add_cube(2, Vec3(0, 1, 0));
+  add_cube(4, Vec3(1, 0, 0));
+  add_cube(5, Vec3(0, 0, 1));
+  EXPECT_EQ(merge(), 9);
+  expect_as_by_brute_force();
+}
+
 /// Two of three lie on one another with the same faces, the third on both with others.
 TEST_F(TouchingParts, EachPlaceHasAPointOfEachPart) {
   add_cube(2, Vec3(0));
