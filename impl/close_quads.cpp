@@ -53,7 +53,8 @@ class Layers {
       if (are_alike) keep_closed(quads);
       if (quads.empty()) quads = find_slanted_quads(solid_.view(), triangles_, tet_of_, job_);
       if (quads.empty()) break;
-      for (const CrossedQuad &quad : quads) add(quad);
+      for (const CrossedQuad &quad : quads)
+        if (!is_tet_turned_back(quad)) add(quad);
       cover_twins();
       drop_covered();
     }
@@ -80,6 +81,14 @@ class Layers {
   static void keep_closed(Array<CrossedQuad> &quads) {
     quads.erase(std::remove_if(quads.begin(), quads.end(), [](const CrossedQuad &quad) { return !quad.is_closed(); }),
                 quads.end());
+  }
+
+  /// Both triangles are of one tet, which has all four vertices already.
+  bool is_tet_turned_back(const CrossedQuad &quad) const {
+    const auto of_one_tet = [&](const std::array<std::int32_t, 2> &pair) {
+      return tet_of_[std::size_t(pair[0])] == tet_of_[std::size_t(pair[1])];
+    };
+    return of_one_tet(quad.one) || (quad.is_closed() && of_one_tet(quad.other));
   }
 
   void cover(std::int32_t t) { tet_of_[std::size_t(t)] = -1; }

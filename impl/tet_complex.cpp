@@ -89,10 +89,13 @@ void TetComplex::replace_tets(Span<const std::int32_t> old, Span<const Tet> fres
     for (int k = 0; k < 4; k++) {
       const std::int32_t beyond = neighbours[std::size_t(t)][std::size_t(k)];
       if (std::find(old.begin(), old.end(), beyond) != old.end()) continue;
-      int side = 0;
+      const Triangle face = sorted_face(tets[std::size_t(t)], k);
+      int side = 0;  // of two tets with two faces in common the one with this face
       if (beyond >= 0)
-        while (neighbours[std::size_t(beyond)][std::size_t(side)] != t) side++;
-      outer_.push_back({sorted_face(tets[std::size_t(t)], k), beyond, side});
+        while (side < 3 && (neighbours[std::size_t(beyond)][std::size_t(side)] != t ||
+                            sorted_face(tets[std::size_t(beyond)], side) != face))
+          side++;
+      outer_.push_back({face, beyond, side});
     }
   }
   for (std::size_t i = old.size(); i-- > 0;) {
