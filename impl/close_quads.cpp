@@ -52,9 +52,10 @@ class Layers {
       are_alike = are_alike || quads.empty();
       if (are_alike) keep_closed(quads);
       if (quads.empty()) quads = find_slanted_quads(solid_.view(), triangles_, tet_of_, job_);
-      if (quads.empty()) break;
+      const std::size_t before = solid_.tets.size();
       for (const CrossedQuad &quad : quads)
         if (!is_tet_turned_back(quad)) add(quad);
+      if (solid_.tets.size() == before) break;
       cover_twins();
       drop_covered();
     }

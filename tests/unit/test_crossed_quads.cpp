@@ -8,27 +8,15 @@
 #include "brute_force.hpp"
 #include "close_quads.hpp"
 #include "geometry.hpp"
-#include "meshes.hpp"
-#include "prepare.hpp"
+#include "prepared_mesh.hpp"
 
 namespace tetlod {
 namespace {
 
 using namespace test;
 
-class CrossedQuads : public testing::Test {
+class CrossedQuads : public PreparedMesh {
  protected:
-  Host host{2};
-  Options options;
-  Original original{host.memory};
-  Boundary boundary{host.memory};
-
-  void prepare(const Mesh &mesh) {
-    original = Original(host.memory);
-    boundary = Boundary(host.memory);
-    prepare_with_boundary(input_of(mesh), options, host.job, original, boundary);
-  }
-
   double volume6(const Tet &t) const {
     const auto at = [&](std::size_t k) { return original.view.points[std::size_t(t[k])]; };
     return det(at(0), at(1), at(2), at(3));

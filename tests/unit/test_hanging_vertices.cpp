@@ -8,27 +8,15 @@
 #include "brute_force.hpp"
 #include "geometry.hpp"
 #include "hanging_vertices.hpp"
-#include "meshes.hpp"
-#include "prepare.hpp"
+#include "prepared_mesh.hpp"
 
 namespace tetlod {
 namespace {
 
 using namespace test;
 
-class HangingVertices : public testing::Test {
+class HangingVertices : public PreparedMesh {
  protected:
-  Host host{2};
-  Options options;
-  Original original{host.memory};
-  Boundary boundary{host.memory};
-
-  void prepare(const Mesh &mesh) {
-    original = Original(host.memory);
-    boundary = Boundary(host.memory);
-    prepare_with_boundary(input_of(mesh), options, host.job, original, boundary);
-  }
-
   /// A solid of this volume, closed, with one surface, without slits; tets wind one way, nearly all with a volume.
   void expect_conforming(const Mesh &mesh, double volume) {
     prepare(mesh);
