@@ -168,11 +168,11 @@ typedef struct tetlod_run_report {
                            TETLOD_OPT_MAX_ERROR alone */
   double max_deviation; /* largest distance of a boundary vertex, of the original or the result, from the other's
                            boundary, over the diagonal; with TETLOD_OPT_MAX_DEVIATION, of what that is measured at */
-  int64_t reused_tets;  /* taken over from earlier runs, see tetlod_run: tets_in where the mesh's checks and boundary
-                           were, else 0 */
+  int64_t reused_tets;  /* taken over from earlier runs, see tetlod_run: tets_in where the boundary was, else 0 */
   int64_t reused_triangles; /* boundary_triangles_out where its decimation was, else 0 */
   int64_t reused_samples;   /* samples known to be inside or outside, near or far */
   int64_t reused_collapses; /* of edges of the solid (TETLOD_OPT_EFFORT), for another size, or other values */
+  int64_t divided_tets;     /* that others take the place of, as the mesh did not conform (TETLOD_OPT_ON_OVERLAP) */
 } tetlod_run_report;
 
 /* The field error of the last result, as the paper estimates it [4]. Errors are |result - original|, relative to the

@@ -1,10 +1,9 @@
 #include "close_quads.hpp"
 
 #include <algorithm>
-#include <functional>
 #include <utility>
 
-#include "crossed_quads.hpp"
+#include "flat_layers.hpp"
 #include "predicates.hpp"
 #include "tet_complex.hpp"
 
@@ -32,99 +31,6 @@ bool winds_as(const Tet &t, const Tet &other) {
     for (std::size_t j = i + 1; j < 4; j++) inversions += at[i] > at[j];
   return inversions % 2 == 0;
 }
-
-/// Flat tets between the two sides, one on another, until the sides have the same triangles.
-class Layers {
- public:
-  Layers(NumberedTets &solid, Job &job)
-      : solid_(solid),
-        job_(job),
-        triangles_(solid.boundary.triangles, &job.memory),
-        tet_of_(solid.boundary.tet_of, &job.memory) {}
-
-  /// One side comes to have the edges of the other, as long as a quad has two of these; then both come to be Delaunay.
-  /// Returns where the tets begin.
-  std::size_t add() {
-    const std::size_t first = solid_.tets.size();
-    bool are_alike = false;
-    for (int round = 0; round < most_rounds; round++) {
-      Array<CrossedQuad> quads = find_crossed_quads(solid_.view(), triangles_, tet_of_, job_);
-      are_alike = are_alike || quads.empty();
-      if (are_alike) keep_closed(quads);
-      if (quads.empty()) quads = find_slanted_quads(solid_.view(), triangles_, tet_of_, job_);
-      const std::size_t before = solid_.tets.size();
-      for (const CrossedQuad &quad : quads)
-        if (!is_tet_turned_back(quad)) add(quad);
-      if (solid_.tets.size() == before) break;
-      cover_twins();
-      drop_covered();
-    }
-    return first;
-  }
-  bool cover_all() const { return triangles_.empty(); }
-
- private:
-  void add(const CrossedQuad &quad) {
-    const auto [x, y, u, v] = quad.tet;
-    const auto tet = std::int32_t(solid_.tets.size());
-    solid_.number.push_back(solid_.number[std::size_t(tet_of_[std::size_t(quad.one[0])])]);
-    solid_.tets.push_back(quad.tet);
-    for (const std::int32_t t : quad.one) cover(t);
-    if (quad.is_closed())
-      for (const std::int32_t t : quad.other) cover(t);
-    else
-      for (const Triangle &t : {Triangle{v, y, u}, Triangle{u, x, v}}) {
-        triangles_.push_back(t);
-        tet_of_.push_back(tet);
-      }
-  }
-
-  static void keep_closed(Array<CrossedQuad> &quads) {
-    quads.erase(std::remove_if(quads.begin(), quads.end(), [](const CrossedQuad &quad) { return !quad.is_closed(); }),
-                quads.end());
-  }
-
-  /// Both triangles are of one tet, which has all four vertices already.
-  bool is_tet_turned_back(const CrossedQuad &quad) const {
-    const auto of_one_tet = [&](const std::array<std::int32_t, 2> &pair) {
-      return tet_of_[std::size_t(pair[0])] == tet_of_[std::size_t(pair[1])];
-    };
-    return of_one_tet(quad.one) || (quad.is_closed() && of_one_tet(quad.other));
-  }
-
-  void cover(std::int32_t t) { tet_of_[std::size_t(t)] = -1; }
-
-  /// Triangles that both sides have.
-  void cover_twins() {
-    Array<std::pair<Triangle, std::int32_t>> sorted(&job_.memory);
-    for (std::size_t t = 0; t < triangles_.size(); t++) {
-      if (tet_of_[t] < 0) continue;
-      sorted.push_back({triangles_[t], std::int32_t(t)});
-      std::sort(sorted.back().first.begin(), sorted.back().first.end());
-    }
-    std::sort(sorted.begin(), sorted.end(), PollingLess(job_, 0.9, std::less<std::pair<Triangle, std::int32_t>>()));
-    for (std::size_t i = 1; i < sorted.size(); i++)
-      if (sorted[i].first == sorted[i - 1].first) {
-        cover(sorted[i].second);
-        cover(sorted[i - 1].second);
-      }
-  }
-  void drop_covered() {
-    std::size_t kept = 0;
-    for (std::size_t t = 0; t < triangles_.size(); t++) {
-      if (tet_of_[t] < 0) continue;
-      triangles_[kept] = triangles_[t];
-      tet_of_[kept++] = tet_of_[t];
-    }
-    triangles_.resize(kept);
-    tet_of_.resize(kept);
-  }
-
-  NumberedTets &solid_;
-  Job &job_;
-  Array<Triangle> triangles_;   // of the boundary with the tets
-  Array<std::int32_t> tet_of_;  // -1: covered
-};
 
 class ClosedQuads : private TetComplex {
  public:
@@ -269,7 +175,7 @@ class ClosedQuads : private TetComplex {
     if (!TetComplex::ring(t, a, b, around, ring, [](std::int32_t) { return true; }) || ring.size() < 3) return;
     if (!winds_as(tets[std::size_t(t)], {a, b, ring[0], ring[1]})) std::swap(a, b);  // t is flat
     for (std::size_t apex = 0; apex < ring.size(); apex++) {
-      const Way way = fan(around, ring, a, b, apex);
+      const Way way = way_around(around, ring, a, b, apex);
       const double shape2 = worst_shape2(way.fresh);
       if (!(shape2 > best_shape2)) continue;
       best = way;
@@ -277,18 +183,14 @@ class ClosedQuads : private TetComplex {
     }
   }
 
-  /// The ring's triangles from one of its vertices, each with a tet to either side.
-  Way fan(const Few<std::int32_t, longest_ring> &around, const Few<std::int32_t, longest_ring> &ring, std::int32_t a,
-          std::int32_t b, std::size_t apex) const {
+  /// Of the two tets at a triangle of the ring's fan the numbers are those of the tet at its edge that is the ring's.
+  Way way_around(const Few<std::int32_t, longest_ring> &around, const Few<std::int32_t, longest_ring> &ring,
+                 std::int32_t a, std::int32_t b, std::size_t apex) const {
     Way way;
     for (const std::int32_t t : around) way.old.push(t);
-    const std::size_t n = ring.size();
-    for (std::size_t i = 1; i + 1 < n; i++) {
-      const std::int32_t p = ring[apex], q = ring[(apex + i) % n], r = ring[(apex + i + 1) % n];
-      way.fresh.push({p, q, r, b});
-      way.fresh.push({p, r, q, a});
-      for (int side = 0; side < 2; side++) way.number.push(number_[std::size_t(around[(apex + i) % n])]);
-    }
+    way.fresh = fan(ring, a, b, apex);
+    for (std::size_t i = 0; i < way.fresh.size(); i++)
+      way.number.push(number_[std::size_t(around[(apex + 1 + i / 2) % ring.size()])]);
     return way;
   }
 
@@ -313,9 +215,8 @@ class ClosedQuads : private TetComplex {
 }  // namespace
 
 bool close_crossed_quads(Job &job, NumberedTets &solid) {
-  Layers layers(solid, job);
-  const std::size_t first = layers.add();
-  if (layers.cover_all()) return false;
+  const std::size_t first = solid.tets.size();
+  if (!add_flat_layers(job, solid)) return false;
   if (first == solid.tets.size()) return true;
   ClosedQuads closed(std::move(solid), first, job);
   closed.let_quads_give_way();

@@ -1,5 +1,7 @@
 #include "conforming.hpp"
 
+#include <algorithm>
+
 #include "close_quads.hpp"
 #include "crossed_quads.hpp"
 #include "hanging_vertices.hpp"
@@ -16,8 +18,9 @@ namespace {
 constexpr std::size_t largest_growth = 8;
 
 bool has_gaps(const MeshView &mesh, const Boundary &boundary, Job &job) {
-  return !find_hanging_vertices(mesh, boundary.triangles, job).empty() ||
-         !find_crossed_quads(mesh, boundary.triangles, boundary.tet_of, job).empty();
+  const TriangleCorners corners(mesh.points.size(), boundary.triangles, job);
+  return !find_hanging_vertices(mesh, corners, job).empty() ||
+         !find_crossed_quads(mesh, corners, boundary.tet_of, job).empty();
 }
 
 /// Its boundary bounds wedges of material, and, if that is asked for, touches itself nowhere.
@@ -46,6 +49,27 @@ bool close_gaps(Job &job, NumberedTets &tets) {
   return close_crossed_quads(job, tets) && tets.find_boundary(job);
 }
 
+bool have_same_vertices(Tet one, Tet other) {
+  std::sort(one.begin(), one.end());
+  std::sort(other.begin(), other.end());
+  return one == other;
+}
+
+/// Of the original's those that are not among them.
+std::int64_t count_divided(const Original &original, const NumberedTets &tets) {
+  const Span<const Tet> old = original.view.tets;
+  const Array<std::int32_t> &number = original.tet_number;
+  std::int64_t left = 0;
+  for (std::size_t t = 0; t < tets.tets.size(); t++) {
+    const std::int32_t of = tets.number[t];
+    const auto place = number.empty()
+                           ? std::size_t(of)
+                           : std::size_t(std::lower_bound(number.begin(), number.end(), of) - number.begin());
+    left += have_same_vertices(tets.tets[t], old[place]);
+  }
+  return std::int64_t(old.size()) - left;
+}
+
 }  // namespace
 
 void make_conforming(Job &job, Boundary &boundary, Original &original) {
@@ -55,6 +79,7 @@ void make_conforming(Job &job, Boundary &boundary, Original &original) {
   tets.boundary.flat_tets += boundary.flat_tets;
   tets.boundary.duplicate_tets += boundary.duplicate_tets;
   boundary = std::move(tets.boundary);
+  original.divided_tets = count_divided(original, tets);
   original.tets = std::move(tets.tets);
   original.tet_number = std::move(tets.number);
   original.view.tets = original.tets;

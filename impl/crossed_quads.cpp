@@ -6,7 +6,6 @@
 
 #include "geometry.hpp"
 #include "predicates.hpp"
-#include "triangle_corners.hpp"
 
 namespace tetlod {
 
@@ -14,13 +13,13 @@ namespace {
 
 class CrossedQuads {
  public:
-  CrossedQuads(const MeshView &mesh, Span<const Triangle> triangles, Span<const std::int32_t> tet_of, Job &job)
+  CrossedQuads(const MeshView &mesh, const TriangleCorners &corners, Span<const std::int32_t> tet_of, Job &job)
       : mesh_(mesh),
-        triangles_(triangles),
+        triangles_(corners.triangles()),
         tet_of_(tet_of),
         job_(job),
-        corners_(mesh.points.size(), triangles, job),
-        taken_(triangles.size(), 0, &job.memory),
+        corners_(corners),
+        taken_(triangles_.size(), 0, &job.memory),
         found_(&job.memory) {}
 
   Array<CrossedQuad> find_crossed() {
@@ -159,21 +158,21 @@ class CrossedQuads {
   Span<const Triangle> triangles_;
   Span<const std::int32_t> tet_of_;
   Job &job_;
-  TriangleCorners corners_;
+  const TriangleCorners &corners_;
   Array<std::uint8_t> taken_;  // of each triangle, whether a quad has it
   Array<CrossedQuad> found_;
 };
 
 }  // namespace
 
-Array<CrossedQuad> find_crossed_quads(const MeshView &mesh, Span<const Triangle> triangles,
+Array<CrossedQuad> find_crossed_quads(const MeshView &mesh, const TriangleCorners &corners,
                                       Span<const std::int32_t> tet_of, Job &job) {
-  return CrossedQuads(mesh, triangles, tet_of, job).find_crossed();
+  return CrossedQuads(mesh, corners, tet_of, job).find_crossed();
 }
 
-Array<CrossedQuad> find_slanted_quads(const MeshView &mesh, Span<const Triangle> triangles,
+Array<CrossedQuad> find_slanted_quads(const MeshView &mesh, const TriangleCorners &corners,
                                       Span<const std::int32_t> tet_of, Job &job) {
-  return CrossedQuads(mesh, triangles, tet_of, job).find_slanted();
+  return CrossedQuads(mesh, corners, tet_of, job).find_slanted();
 }
 
 }  // namespace tetlod

@@ -3,8 +3,8 @@
 #pragma once
 #include <array>
 
-#include "job.hpp"
 #include "mesh.hpp"
+#include "triangle_corners.hpp"
 
 namespace tetlod {
 
@@ -17,16 +17,16 @@ struct CrossedQuad {
   bool is_closed() const { return other[1] >= 0; }  ///< by that tet
 };
 
-/// triangles: that one tet each has, tet_of, seen from outside. The tet of four triangles may have a tenth of the cube
-/// of its longest side, and is none of the mesh; that of others is flat, but for rounding. Each triangle is of one quad
-/// at most. At vertices of very many triangles none are looked for.
-Array<CrossedQuad> find_crossed_quads(const MeshView &mesh, Span<const Triangle> triangles,
+/// corners: of triangles that one tet each has, tet_of, seen from outside. The tet of four triangles may have a tenth
+/// of the cube of its longest side, and is none of the mesh; that of others is flat, but for rounding. Each triangle is
+/// of one quad at most. At vertices of very many triangles none are looked for.
+Array<CrossedQuad> find_crossed_quads(const MeshView &mesh, const TriangleCorners &corners,
                                       Span<const std::int32_t> tet_of, Job &job);
 
 /// Pairs of triangles with an edge in common, each of which has one that lies back to back on another at one of its
 /// edges, where the other diagonal of their quad is a Delaunay edge, and theirs is none: `other` is -1, -1. When all of
 /// both sides are, the sides are the same, but for squares.
-Array<CrossedQuad> find_slanted_quads(const MeshView &mesh, Span<const Triangle> triangles,
+Array<CrossedQuad> find_slanted_quads(const MeshView &mesh, const TriangleCorners &corners,
                                       Span<const std::int32_t> tet_of, Job &job);
 
 }  // namespace tetlod

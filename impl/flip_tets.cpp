@@ -46,8 +46,6 @@ class FlipFinder {
   }
 
  private:
-  using FreshTets = Few<Tet, most_fresh>;
-
   /// What two tets share is the turn of the one with the larger error.
   bool is_before(std::int32_t t, std::int32_t other) const {
     const double a = mesh_.error[std::size_t(t)], b = mesh_.error[std::size_t(other)];
@@ -97,24 +95,12 @@ class FlipFinder {
     bool found = false;
     const std::size_t n = ring.size(), ways = n == 3 ? 1 : n == 4 ? 2 : n;
     for (std::size_t apex = 0; apex < ways; apex++) {
-      const FreshTets fresh = fan(ring, a, b, apex);
+      const auto fresh = fan(ring, a, b, apex);
       if (!mesh_.is_better(flip.old, fresh, price_, old_error, best)) continue;
       flip.fresh = fresh;
       found = true;
     }
     return found;
-  }
-
-  /// The ring's triangles from one of its vertices, each with a tet to either side.
-  static FreshTets fan(const Few<std::int32_t, longest_ring> &ring, std::int32_t a, std::int32_t b, std::size_t apex) {
-    FreshTets fresh;
-    const std::size_t n = ring.size();
-    for (std::size_t i = 1; i + 1 < n; i++) {
-      const std::int32_t p = ring[apex], q = ring[(apex + i) % n], r = ring[(apex + i + 1) % n];
-      fresh.push({p, q, r, b});
-      fresh.push({p, r, q, a});
-    }
-    return fresh;
   }
 
   double price_;

@@ -5,7 +5,6 @@
 
 #include "geometry.hpp"
 #include "predicates.hpp"
-#include "triangle_corners.hpp"
 
 namespace tetlod {
 
@@ -30,12 +29,8 @@ bool lies_on(const Vec3 &shorter, const Vec3 &longer, double rounding) {
 
 class HangingVertices {
  public:
-  HangingVertices(const MeshView &mesh, Span<const Triangle> triangles, Job &job)
-      : mesh_(mesh),
-        triangles_(triangles),
-        job_(job),
-        corners_(mesh.points.size(), triangles, job),
-        rounding_(rounding_of(mesh, triangles)) {}
+  HangingVertices(const MeshView &mesh, const TriangleCorners &corners, Job &job)
+      : mesh_(mesh), corners_(corners), job_(job), rounding_(rounding_of(mesh, corners.triangles())) {}
 
   /// Those with an edge to an end of theirs.
   Array<HangingVertex> find() const {
@@ -104,14 +99,13 @@ class HangingVertices {
   }
 
   Vec3 normal(std::int32_t triangle) const {
-    const Triangle &t = triangles_[std::size_t(triangle)];
+    const Triangle &t = corners_.triangles()[std::size_t(triangle)];
     return glm::cross(way(t[0], t[1]), way(t[0], t[2]));
   }
 
   const MeshView &mesh_;
-  Span<const Triangle> triangles_;
+  const TriangleCorners &corners_;
   Job &job_;
-  TriangleCorners corners_;
   double rounding_;
 };
 
@@ -196,13 +190,14 @@ class Division {
 
 }  // namespace
 
-Array<HangingVertex> find_hanging_vertices(const MeshView &mesh, Span<const Triangle> triangles, Job &job) {
-  return HangingVertices(mesh, triangles, job).find();
+Array<HangingVertex> find_hanging_vertices(const MeshView &mesh, const TriangleCorners &corners, Job &job) {
+  return HangingVertices(mesh, corners, job).find();
 }
 
 bool divide_at_hanging_vertices(Job &job, NumberedTets &tets) {
   const MeshView mesh = tets.view();
-  const HangingVertices vertices(mesh, tets.boundary.triangles, job);
+  const TriangleCorners corners(mesh.points.size(), tets.boundary.triangles, job);
+  const HangingVertices vertices(mesh, corners, job);
   Array<HangingVertex> hanging = vertices.find();
   if (hanging.empty()) hanging = vertices.find_on_diagonals();
   if (hanging.empty()) return false;

@@ -1,6 +1,7 @@
 // Vertices on the edges of coarser neighbours, as between the levels of a mesh that is refined in places.
 #pragma once
 #include "numbered_tets.hpp"
+#include "triangle_corners.hpp"
 
 namespace tetlod {
 
@@ -10,8 +11,9 @@ struct HangingVertex {
   std::int32_t vertex, from, to;
 };
 
-/// Of a closed surface, seen from outside. At vertices of very many triangles none are looked for.
-Array<HangingVertex> find_hanging_vertices(const MeshView &mesh, Span<const Triangle> triangles, Job &job);
+/// corners: of the triangles of a closed surface, seen from outside. At vertices of very many triangles none are looked
+/// for.
+Array<HangingVertex> find_hanging_vertices(const MeshView &mesh, const TriangleCorners &corners, Job &job);
 
 /// Divides the tets at edges of the boundary that have a hanging vertex, once each, unless one would turn over. The
 /// boundary is of before. False: there is nothing to divide.

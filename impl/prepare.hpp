@@ -33,6 +33,7 @@ struct Original {
   bool merging_depends = false;       ///< on whether parts may be in contact
   std::int64_t nonfinite_points = 0;  ///< without a finite value, ignored with their tets
   std::int64_t dropped_tets = 0;      ///< with such a point, or with a repeated vertex, as submitted or after merging
+  std::int64_t divided_tets = 0;      ///< that others take the place of: make_conforming
   std::int32_t index_base = 0;        ///< as submitted
   int exponent = 0;                   ///< the view's coordinates are the caller's divided by 2^exponent
   double scalar_min = 0, scalar_max = 0;  ///< over the vertices that tets of the view have

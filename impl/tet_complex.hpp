@@ -160,4 +160,18 @@ bool TetComplex::ring(std::int32_t t, std::int32_t a, std::int32_t b, Few<std::i
 /// The vertices of the face opposite corner k, ascending.
 Triangle sorted_face(const Tet &t, int k);
 
+/// The tets instead of those around an edge (a, b), without it, 2 * (ring's size - 2): the ring's triangles from one of
+/// its vertices, each with a tet to either side, b's first.
+template <std::size_t most>
+Few<Tet, 2 * (most - 2)> fan(const Few<std::int32_t, most> &ring, std::int32_t a, std::int32_t b, std::size_t apex) {
+  Few<Tet, 2 * (most - 2)> fresh;
+  const std::size_t n = ring.size();
+  for (std::size_t i = 1; i + 1 < n; i++) {
+    const std::int32_t p = ring[apex], q = ring[(apex + i) % n], r = ring[(apex + i + 1) % n];
+    fresh.push({p, q, r, b});
+    fresh.push({p, r, q, a});
+  }
+  return fresh;
+}
+
 }  // namespace tetlod

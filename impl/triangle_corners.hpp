@@ -2,6 +2,7 @@
 #pragma once
 #include <numeric>
 
+#include "geometry.hpp"
 #include "whole_arrays.hpp"
 
 namespace tetlod {
@@ -14,7 +15,9 @@ struct Corner {
 class TriangleCorners {
  public:
   TriangleCorners(std::size_t vertices, Span<const Triangle> triangles, Job &job)
-      : begin_(vertices + 1, 0, &job.memory), corners_(3 * triangles.size(), Corner{}, &job.memory) {
+      : triangles_(triangles),
+        begin_(vertices + 1, 0, &job.memory),
+        corners_(3 * triangles.size(), Corner{}, &job.memory) {
     for (const Triangle &t : triangles)
       for (const std::int32_t v : t) begin_[std::size_t(v) + 1]++;
     std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
@@ -25,6 +28,7 @@ class TriangleCorners {
         corners_[place[std::size_t(t[k])]++] = {t[(k + 1) % 3], t[(k + 2) % 3], std::int32_t(i)};
       }
   }
+  Span<const Triangle> triangles() const { return triangles_; }
   /// None where there are very many: who looks at each with each would look long.
   Span<const Corner> of(std::int32_t v) const {
     constexpr std::size_t most = 256;
@@ -33,6 +37,7 @@ class TriangleCorners {
   }
 
  private:
+  Span<const Triangle> triangles_;
   Array<std::uint32_t> begin_;
   Array<Corner> corners_;
 };

@@ -1,7 +1,7 @@
 ! Texts, options, and how a context is made and heard, through the module tetlod: each procedure hands on what it gets.
 module settings_tests
-  use, intrinsic :: iso_c_binding, only: c_associated, c_f_pointer, c_funloc, c_int32_t, c_loc, c_null_ptr, c_ptr, &
-    c_size_t
+  use, intrinsic :: iso_c_binding, only: c_associated, c_f_pointer, c_funloc, c_funptr, c_int32_t, c_loc, &
+    c_null_ptr, c_ptr, c_size_t
   use, intrinsic :: iso_fortran_env, only: int32, int64, real32, real64
   use test_box
   use tetlod
@@ -178,7 +178,10 @@ contains
     type(tetlod_context) :: lod
     type(tally), target :: counted
     type(tetlod_run_report) :: report
-    call lod%create(allocate=c_funloc(allocate_here), release=c_funloc(release_here), allocator_user=c_loc(counted))
+    type(c_funptr) :: allocate, release  ! as arguments gfortran makes them constants that cannot be relocated
+    allocate = c_funloc(allocate_here)
+    release = c_funloc(release_here)
+    call lod%create(allocate=allocate, release=release, allocator_user=c_loc(counted))
     call submit_box(lod)
     call lod%run()
     call lod%fetch_report(report)

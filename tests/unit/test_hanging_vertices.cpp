@@ -1,9 +1,12 @@
 // Meshes that are refined in places: vertices hang on the edges of coarser neighbours.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <random>
+#include <set>
+#include <utility>
 
 #include "brute_force.hpp"
 #include "geometry.hpp"
@@ -42,6 +45,22 @@ class HangingVertices : public PreparedMesh {
     EXPECT_LT(length2(enclosed(is)), 1e-20);
   }
 
+  /// As many tets as the mesh has that the prepared one has not under their number, whatever their winding.
+  void expect_divided(const Mesh &mesh) const {
+    const auto vertices_of = [](Tet t) {
+      std::sort(t.begin(), t.end());
+      return t;
+    };
+    std::set<std::pair<std::int32_t, Tet>> left;
+    for (std::size_t t = 0; t < original.view.tets.size(); t++)
+      left.insert({original.tet_number[t], vertices_of(original.view.tets[t])});
+    std::int64_t divided = 0;
+    for (std::size_t t = 0; t < mesh.tets.size(); t++)
+      divided += left.count({std::int32_t(t), vertices_of(mesh.tets[t])}) == 0;
+    EXPECT_GT(divided, 0);
+    EXPECT_EQ(original.divided_tets, divided);
+  }
+
   /// The area vectors of a closed surface add up to nothing.
   Vec3 enclosed(const Mesh &mesh) const {
     Vec3 sum(0);
@@ -56,6 +75,7 @@ TEST_F(HangingVertices, AreNoneInSoundMeshes) {
   for (unsigned seed = 1; seed < 8; seed++) {
     const Mesh mesh = random_solid(4, 0.5, seed);
     prepare(mesh);
+    EXPECT_EQ(original.divided_tets, 0);
     ASSERT_EQ(original.view.tets.size(), mesh.tets.size());
     for (std::size_t t = 0; t < mesh.tets.size(); t++) EXPECT_EQ(original.view.tets[t], mesh.tets[t]);
   }
@@ -79,8 +99,11 @@ TEST_F(HangingVertices, AreNotLookedForAmongVeryMany) {
 }
 
 TEST_F(HangingVertices, OfOneFineCell) {
-  for (const Cell &fine : {Cell{1, 1, 1}, Cell{0, 1, 1}, Cell{0, 0, 0}})
-    expect_conforming(refined_cubes(3, [&](const Cell &c) { return c == fine; }), 1);
+  for (const Cell &fine : {Cell{1, 1, 1}, Cell{0, 1, 1}, Cell{0, 0, 0}}) {
+    const Mesh mesh = refined_cubes(3, [&](const Cell &c) { return c == fine; });
+    expect_conforming(mesh, 1);
+    expect_divided(mesh);
+  }
 }
 
 TEST_F(HangingVertices, OfCellsAnywhere) {
@@ -102,9 +125,10 @@ TEST_F(HangingVertices, OfCellsThatAreCutAnyhow) {
   std::mt19937_64 random(2);
   for (unsigned seed = 1; seed <= 8; seed++) {
     std::bernoulli_distribution is_fine(0.1 * seed - 0.1);
-    expect_conforming(refined_cubes(
-                          4, [&](const Cell &) { return is_fine(random); }, seed),
-                      1);
+    const Mesh mesh = refined_cubes(
+        4, [&](const Cell &) { return is_fine(random); }, seed);
+    expect_conforming(mesh, 1);
+    expect_divided(mesh);
   }
 }
 
