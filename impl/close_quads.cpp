@@ -3,225 +3,78 @@
 #include <algorithm>
 #include <utility>
 
-#include "flat_layers.hpp"
-#include "predicates.hpp"
-#include "tet_complex.hpp"
+#include "crossed_quads.hpp"
+#include "flat_tets.hpp"
 
 namespace tetlod {
 
 namespace {
 
-constexpr std::size_t longest_ring = 8, most_fresh = 2 * (longest_ring - 2);
-/// Few quads are left after a few rounds, but where tets overlap. A try takes up to a millisecond.
-constexpr int most_rounds = 20, most_tries = 1000;
+/// After some there are no more to turn, but where tets overlap.
+constexpr int most_rounds = 50;
 
-/// Tets, what takes their place, and the numbers of these.
-struct Way {
-  Few<std::int32_t, most_fresh> old;
-  Few<Tet, most_fresh> fresh;
-  Few<std::int32_t, most_fresh> number;
-};
-
-/// Whether the order of a, b, c, d is one of those that have the winding of t.
-bool winds_as(const Tet &t, const Tet &other) {
-  int inversions = 0;
-  std::size_t at[4];
-  for (std::size_t i = 0; i < 4; i++) at[i] = std::size_t(std::find(t.begin(), t.end(), other[i]) - t.begin());
-  for (std::size_t i = 0; i < 4; i++)
-    for (std::size_t j = i + 1; j < 4; j++) inversions += at[i] > at[j];
-  return inversions % 2 == 0;
-}
-
-class ClosedQuads : private TetComplex {
+class ClosingQuads {
  public:
-  /// From `first` on tets are flat, and wind as they fit.
-  ClosedQuads(NumberedTets &&solid, std::size_t first, Job &job)
-      : TetComplex(job.memory), job_(job), number_(std::move(solid.number)), quads_(&job.memory), made_(&job.memory) {
-    points.assign(solid.points.begin(), solid.points.end());
-    tets = std::move(solid.tets);
-    turn_upright(first);
-    for (std::size_t t = first; t < tets.size(); t++) quads_.push_back({std::int32_t(t), tets[t]});
-    connect(job);
-  }
+  ClosingQuads(NumberedTets &&solid, Job &job)
+      : job_(job),
+        triangles_(std::move(solid.boundary.triangles)),
+        tet_of_(std::move(solid.boundary.tet_of)),
+        mesh_(std::move(solid), job) {}
 
-  /// One that does not may when others around it have.
-  void let_quads_give_way() {
-    const auto some_go = [&](const auto &goes) {
-      const auto end = std::remove_if(quads_.begin(), quads_.end(), goes);
-      const bool any = end != quads_.end();
-      quads_.erase(end, quads_.end());
-      return any;
-    };
-    for (int round = 0; round < most_rounds; round++)
-      if (!some_go([&](const Quad &quad) { return gives_way(quad); }) &&
-          !some_go([&](const Quad &quad) { return gives_way_after_another(quad); }))
-        return;
-  }
-
-  void give(NumberedTets &solid) {
-    peel();
-    solid.tets.clear();
-    solid.number.clear();
-    for (std::size_t t = 0; t < tets.size(); t++) {
-      job_.poll_at(t, 0.9);
-      if (!alive(std::int32_t(t))) continue;
-      solid.tets.push_back(tets[t]);
-      solid.number.push_back(number_[t]);
+  /// One side comes to have the edges of the other, as long as a quad has two of these; then both come to be Delaunay.
+  void close(NumberedTets &solid) {
+    bool are_alike = false;
+    for (int round = 0; round < most_rounds; round++) {
+      bool any = add_flat_tets(crossed_quads(are_alike));
+      are_alike = are_alike || !any;
+      any = any || add_flat_tets(slanted_quads());
+      if (!any) break;
+      mesh_.give_way();
+      mesh_.find_boundary(triangles_, tet_of_);
     }
+    mesh_.settle();
+    mesh_.give(solid);
   }
 
  private:
-  void turn_upright(std::size_t tets_with_volume) {
-    for (std::size_t t = 0; t < tets_with_volume; t++) {
-      job_.poll_at(t, 0.9);
-      const auto at = [&](std::size_t k) { return points[std::size_t(tets[t][k])]; };
-      if (orientation(at(0), at(1), at(2), at(3)) < 0) std::swap(tets[t][2], tets[t][3]);
+  TriangleCorners corners() const { return {mesh_.view().points.size(), triangles_, job_}; }
+
+  Array<CrossedQuad> crossed_quads(bool closed_only) const {
+    Array<CrossedQuad> quads = find_crossed_quads(mesh_.view(), corners(), tet_of_, job_);
+    const auto goes = [&](const CrossedQuad &quad) { return closed_only && !quad.is_closed(); };
+    quads.erase(std::remove_if(quads.begin(), quads.end(), goes), quads.end());
+    return quads;
+  }
+  Array<CrossedQuad> slanted_quads() const { return find_slanted_quads(mesh_.view(), corners(), tet_of_, job_); }
+
+  /// Whether some are.
+  bool add_flat_tets(Span<const CrossedQuad> quads) {
+    const std::size_t before = mesh_.count();
+    const Array<Triangle> inner = mesh_.inner_faces();
+    const auto is_inner = [&](const Tet &tet, int k) {
+      return std::binary_search(inner.begin(), inner.end(), sorted_face(tet, k));
+    };
+    for (const CrossedQuad &quad : quads) {
+      if (!quad.is_closed() && (is_inner(quad.tet, 0) || is_inner(quad.tet, 1))) continue;  // of two tets already
+      if (are_of_one_tet(quad.one) || (quad.is_closed() && are_of_one_tet(quad.other))) continue;
+      mesh_.add(quad.tet, tet_of_[std::size_t(quad.one[0])]);
     }
+    return mesh_.count() > before;
   }
 
-  /// Flat tets at the boundary are left out: there the sides have come to no end.
-  void peel() {
-    for (bool any = true; any;) {
-      any = false;
-      for (const Quad &quad : quads_) {
-        Tet &beyond = neighbours[std::size_t(quad.slot)];
-        if (is_gone(quad) || *std::min_element(beyond.begin(), beyond.end()) >= 0) continue;
-        for (const std::int32_t n : beyond)
-          if (n >= 0) std::replace(neighbours[std::size_t(n)].begin(), neighbours[std::size_t(n)].end(), quad.slot, -1);
-        tets[std::size_t(quad.slot)][0] = -1;
-        any = true;
-      }
-    }
-  }
-
-  /// The tet in one. Once it is gone, with another, there may be others in its slot.
-  struct Quad {
-    std::int32_t slot;
-    Tet tet;
-  };
-  bool is_gone(const Quad &quad) const { return tets[std::size_t(quad.slot)] != quad.tet; }
-
-  /// visit(a, b) of each edge, until it returns true.
-  template <class Visit>
-  static bool any_edge(const Tet &t, const Visit &visit) {
-    for (std::size_t i = 0; i < 4; i++)
-      for (std::size_t j = i + 1; j < 4; j++)
-        if (visit(t[i], t[j])) return true;
-    return false;
-  }
-
-  bool gives_way(const Quad &quad) {
-    job_.poll(0.9);
-    if (is_gone(quad)) return true;
-    Way best;
-    double best_shape2 = least_shape * least_shape;
-    any_edge(quad.tet, [&](std::int32_t a, std::int32_t b) {
-      find_way(quad.slot, a, b, best, best_shape2);
-      return false;
-    });
-    if (!best.fresh.empty()) take(best);
-    return !best.fresh.empty();
-  }
-
-  /// Once tets around an edge nearby have.
-  bool gives_way_after_another(const Quad &quad) {
-    if (is_gone(quad)) return true;
-    if (tries_++ >= most_tries) return false;
-    const Array<std::int32_t> around = tets_around_edges(quad);
-    return std::any_of(around.begin(), around.end(), [&](std::int32_t t) {
-      return any_edge(Tet(tets[std::size_t(t)]), [&](std::int32_t a, std::int32_t b) {
-        Way way;
-        double shape2 = least_shape * least_shape;
-        find_way(t, a, b, way, shape2);
-        return !way.fresh.empty() && !way.old.has(quad.slot) && gives_way_after(way, quad);
-      });
-    });
-  }
-
-  /// If it does not, all is as it was, each tet in its slot.
-  bool gives_way_after(const Way &way, const Quad &quad) {
-    Way back;
-    for (const std::int32_t t : way.old) {
-      back.fresh.push(tets[std::size_t(t)]);
-      back.number.push(number_[std::size_t(t)]);
-    }
-    take(way);
-    for (const std::int32_t t : made_) back.old.push(t);
-    if (gives_way(quad)) return true;
-    take(back);
-    return false;
-  }
-
-  Array<std::int32_t> tets_around_edges(const Quad &quad) const {
-    Array<std::int32_t> all(&job_.memory);
-    any_edge(quad.tet, [&](std::int32_t a, std::int32_t b) {
-      Few<std::int32_t, longest_ring> around, ring;
-      if (TetComplex::ring(quad.slot, a, b, around, ring, [](std::int32_t) { return true; }))
-        all.insert(all.end(), around.begin(), around.end());
-      return false;
-    });
-    return all;
-  }
-
-  void take(const Way &way) {
-    replace_tets(way.old, way.fresh, made_);
-    number_.resize(tets.size());
-    for (std::size_t i = 0; i < made_.size(); i++) number_[std::size_t(made_[i])] = way.number[i];
-  }
-
-  /// A better one without the edge (a, b) of tet t: the one whose worst tet has the best shape.
-  void find_way(std::int32_t t, std::int32_t a, std::int32_t b, Way &best, double &best_shape2) const {
-    Few<std::int32_t, longest_ring> around, ring;
-    if (!TetComplex::ring(t, a, b, around, ring, [](std::int32_t) { return true; }) || ring.size() < 3) return;
-    if (!winds_as(tets[std::size_t(t)], {a, b, ring[0], ring[1]})) std::swap(a, b);  // t is flat
-    for (std::size_t apex = 0; apex < ring.size(); apex++) {
-      const Way way = way_around(around, ring, a, b, apex);
-      const double shape2 = worst_shape2(way.fresh);
-      if (!(shape2 > best_shape2)) continue;
-      best = way;
-      best_shape2 = shape2;
-    }
-  }
-
-  /// Of the two tets at a triangle of the ring's fan the numbers are those of the tet at its edge that is the ring's.
-  Way way_around(const Few<std::int32_t, longest_ring> &around, const Few<std::int32_t, longest_ring> &ring,
-                 std::int32_t a, std::int32_t b, std::size_t apex) const {
-    Way way;
-    for (const std::int32_t t : around) way.old.push(t);
-    way.fresh = fan(ring, a, b, apex);
-    for (std::size_t i = 0; i < way.fresh.size(); i++)
-      way.number.push(number_[std::size_t(around[(apex + 1 + i / 2) % ring.size()])]);
-    return way;
-  }
-
-  /// 0 if one is not positive.
-  double worst_shape2(Span<const Tet> fresh) const {
-    double worst = 1;
-    for (const Tet &t : fresh) {
-      const auto at = [&](std::size_t k) { return points[std::size_t(t[k])]; };
-      const bool is_positive = det(at(0), at(1), at(2), at(3)) > 0;
-      worst = std::min(worst, is_positive ? shape2(at(0), at(1), at(2), at(3)) : 0);
-    }
-    return worst;
+  /// Which has all four vertices already.
+  bool are_of_one_tet(const std::array<std::int32_t, 2> &triangles) const {
+    return tet_of_[std::size_t(triangles[0])] == tet_of_[std::size_t(triangles[1])];
   }
 
   Job &job_;
-  Array<std::int32_t> number_;  // of each tet, among the submitted ones
-  Array<Quad> quads_;           // whose tets have not given way
-  Array<std::int32_t> made_;
-  int tries_ = 0;  // of ways after others
+  Array<Triangle> triangles_;   // of the boundary
+  Array<std::int32_t> tet_of_;  // of each
+  FlatTets mesh_;
 };
 
 }  // namespace
 
-bool close_crossed_quads(Job &job, NumberedTets &solid) {
-  const std::size_t first = solid.tets.size();
-  if (!add_flat_layers(job, solid)) return false;
-  if (first == solid.tets.size()) return true;
-  ClosedQuads closed(std::move(solid), first, job);
-  closed.let_quads_give_way();
-  closed.give(solid);
-  return true;
-}
+void close_crossed_quads(Job &job, NumberedTets &solid) { ClosingQuads(std::move(solid), job).close(solid); }
 
 }  // namespace tetlod

@@ -4,6 +4,7 @@
 
 #include "close_quads.hpp"
 #include "crossed_quads.hpp"
+#include "divide_tets.hpp"
 #include "hanging_vertices.hpp"
 #include "nested_solids.hpp"
 #include "status.hpp"
@@ -41,12 +42,16 @@ bool is_solid(const NumberedTets &tets, bool nor_touches_itself, Job &job) {
 }
 
 /// False: they come to no end.
-bool close_gaps(Job &job, NumberedTets &tets) {
+bool close_gaps(Job &job, NumberedTets &tets, bool inside_too) {
   const std::size_t most = largest_growth * tets.tets.size();
+  bool is_refined = false;  // in places: others take no look at each triangle
   if (!tets.find_boundary(job)) return false;
-  while (divide_at_hanging_vertices(job, tets))
+  while (divide_at_hanging_vertices(job, tets) || (is_refined && divide_at_vertices_on_triangles(job, tets, inside_too))) {
+    is_refined = true;
     if (tets.tets.size() > most || !tets.find_boundary(job)) return false;
-  return close_crossed_quads(job, tets) && tets.find_boundary(job);
+  }
+  close_crossed_quads(job, tets);
+  return tets.find_boundary(job) && !tets.boundary.triangles.empty();
 }
 
 bool have_same_vertices(Tet one, Tet other) {
@@ -75,7 +80,7 @@ std::int64_t count_divided(const Original &original, const NumberedTets &tets) {
 void make_conforming(Job &job, Boundary &boundary, Original &original) {
   if (!has_gaps(original.view, boundary, job)) return;
   NumberedTets tets(original.view, original.tet_number, job.memory);
-  if (!close_gaps(job, tets) || !is_solid(tets, false, job)) return;
+  if (!close_gaps(job, tets, true) || !is_solid(tets, false, job)) return;
   tets.boundary.flat_tets += boundary.flat_tets;
   tets.boundary.duplicate_tets += boundary.duplicate_tets;
   boundary = std::move(tets.boundary);
@@ -86,7 +91,7 @@ void make_conforming(Job &job, Boundary &boundary, Original &original) {
 }
 
 bool can_conform(Job &job, NumberedTets &tets) {
-  return tets.find_boundary(job) && has_gaps(tets.view(), tets.boundary, job) && close_gaps(job, tets) &&
+  return tets.find_boundary(job) && has_gaps(tets.view(), tets.boundary, job) && close_gaps(job, tets, false) &&
          is_solid(tets, true, job);
 }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "geometry.hpp"
+#include "lies_on.hpp"
 #include "predicates.hpp"
 
 namespace tetlod {
@@ -143,14 +143,15 @@ class CrossedQuads {
     };
     const auto [cos_u, sin_u] = angle(u);
     const auto [cos_v, sin_v] = angle(v);
-    return sin_u * cos_v + cos_u * sin_v < -rounding;
+    const double sine = sin_u * cos_v + cos_u * sin_v;
+    return sine < -rounding;
   }
 
   bool is_between_sides(std::int32_t triangle) const {
     const Triangle &t = triangles_[std::size_t(triangle)];
     for (std::size_t k = 0; k < 3; k++)
       for (const Corner &corner : corners_.of(t[k]))
-        if (corner.last == t[(k + 1) % 3] && are_back_to_back(normal(triangle), normal(corner.triangle))) return true;
+        if (are_back_to_back(normal(triangle), normal(corner.triangle))) return true;
     return false;
   }
 

@@ -1,6 +1,5 @@
 // Vertices on the edges of coarser neighbours, as between the levels of a mesh that is refined in places.
 #pragma once
-#include "numbered_tets.hpp"
 #include "triangle_corners.hpp"
 
 namespace tetlod {
@@ -14,9 +13,5 @@ struct HangingVertex {
 /// corners: of the triangles of a closed surface, seen from outside. At vertices of very many triangles none are looked
 /// for.
 Array<HangingVertex> find_hanging_vertices(const MeshView &mesh, const TriangleCorners &corners, Job &job);
-
-/// Divides the tets at edges of the boundary that have a hanging vertex, once each, unless one would turn over. The
-/// boundary is of before. False: there is nothing to divide.
-bool divide_at_hanging_vertices(Job &job, NumberedTets &tets);
 
 }  // namespace tetlod

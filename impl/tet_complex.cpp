@@ -16,6 +16,7 @@ Triangle sorted_face(const Tet &t, int k) {
 
 void TetComplex::connect(Job &job) {
   neighbours.assign(tets.size(), Tet{-1, -1, -1, -1});
+  free_.clear();
   job.poll(0.1);
   touched_.assign(tets.size(), 0);
   tet_of.assign(points.size(), -1);

@@ -2,7 +2,6 @@
 #pragma once
 #include <numeric>
 
-#include "geometry.hpp"
 #include "whole_arrays.hpp"
 
 namespace tetlod {
@@ -41,12 +40,5 @@ class TriangleCorners {
   Array<std::uint32_t> begin_;
   Array<Corner> corners_;
 };
-
-/// Whether normals are opposite, but for rounding.
-inline bool are_back_to_back(const Vec3 &normal, const Vec3 &other) {
-  constexpr double rounding = 0.01;
-  return glm::dot(normal, other) < 0 &&
-         length2(glm::cross(normal, other)) <= rounding * rounding * length2(normal) * length2(other);
-}
 
 }  // namespace tetlod

@@ -71,10 +71,11 @@ Mesh cubes_in_five(int n) {
   return mesh;
 }
 
-Mesh refined_cubes(int n, const std::function<bool(const Cell &)> &is_fine, unsigned seed) {
+Mesh refined_cubes(int n, const std::function<int(const Cell &)> &level_of, unsigned seed) {
+  constexpr int size = 1 << most_levels;
   Mesh mesh;
   std::mt19937_64 random(seed);
-  std::map<Cell, std::int32_t> vertex;  // of a lattice twice as fine
+  std::map<Cell, std::int32_t> vertex;  // of the finest lattice
   const auto add = [&](const Mesh &cell, const Cell &low, int step) {
     const std::uint64_t mirrored = seed == 0 ? 0 : random();
     const auto at = [&](const Vec3 &p, int k) {
@@ -87,21 +88,20 @@ Mesh refined_cubes(int n, const std::function<bool(const Cell &)> &is_fine, unsi
         const Vec3 &p = cell.points[std::size_t(t[k])];
         const Cell place{at(p, 0), at(p, 1), at(p, 2)};
         const auto [found, is_new] = vertex.emplace(place, std::int32_t(mesh.points.size()));
-        if (is_new) mesh.points.push_back(Vec3(place[0], place[1], place[2]) / double(2 * n));
+        if (is_new) mesh.points.push_back(Vec3(place[0], place[1], place[2]) / double(size * n));
         tet[k] = found->second;
       }
       mesh.tets.push_back(tet);
     }
   };
   const Mesh cell = kuhn_cube(1);
-  for (int i = 0; i < 2 * n; i += 2)
-    for (int j = 0; j < 2 * n; j += 2)
-      for (int k = 0; k < 2 * n; k += 2) {
-        if (!is_fine({i / 2, j / 2, k / 2})) {
-          add(cell, {i, j, k}, 2);
-          continue;
-        }
-        for (int part = 0; part < 8; part++) add(cell, {i + (part & 1), j + (part >> 1 & 1), k + (part >> 2)}, 1);
+  for (int i = 0; i < n; i++)
+    for (int j = 0; j < n; j++)
+      for (int k = 0; k < n; k++) {
+        const int parts = 1 << level_of({i, j, k}), step = size / parts;
+        for (int x = 0; x < size; x += step)
+          for (int y = 0; y < size; y += step)
+            for (int z = 0; z < size; z += step) add(cell, {size * i + x, size * j + y, size * k + z}, step);
       }
   mesh.scalars.assign(mesh.points.size(), 0);
   return mesh;

@@ -47,10 +47,11 @@ Mesh kuhn_cube(int n);
 /// diagonals.
 Mesh cubes_in_five(int n);
 
-/// [0, 1]^3 in n^3 cells, of which those for which `is_fine` holds are eight; each is cut in six tets as above. Points
-/// at one place are one, so that those in the middle of edges and faces hang where a coarse cell is next to a fine one.
+/// [0, 1]^3 in n^3 cells, each of which is 8^level_of(it) ones; these are cut in six tets as above. Points at one place
+/// are one, so that some hang on edges and faces where a coarse cell is next to a fine one.
 /// seed: not 0, cells are cut along diagonals at random.
-Mesh refined_cubes(int n, const std::function<bool(const Cell &)> &is_fine, unsigned seed = 0);
+constexpr int most_levels = 2;
+Mesh refined_cubes(int n, const std::function<int(const Cell &)> &level_of, unsigned seed = 0);
 
 /// A slab of n x n x layers cells with slits in its middle, each one cell wide and next to nothing high.
 Mesh slab_with_slits(int n, int layers);

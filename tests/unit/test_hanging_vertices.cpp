@@ -132,6 +132,18 @@ TEST_F(HangingVertices, OfCellsThatAreCutAnyhow) {
   }
 }
 
+/// By up to two: vertices also lie inside of the triangles of coarse cells.
+TEST_F(HangingVertices, OfCellsThatAreLevelsApart) {
+  for (unsigned seed = 1; seed <= 8; seed++) {
+    std::mt19937_64 random(seed);
+    std::uniform_int_distribution<int> level(0, 2);
+    const Mesh mesh = refined_cubes(
+        2, [&](const Cell &) { return level(random); }, seed % 2 == 0 ? seed : 0);
+    expect_conforming(mesh, 1);
+    expect_divided(mesh);
+  }
+}
+
 /// Each cell has points of its own, as some programs write them: parts that share faces, or halves of them, are one.
 TEST_F(HangingVertices, OfCellsWithPointsOfTheirOwn) {
   std::mt19937_64 random(9);

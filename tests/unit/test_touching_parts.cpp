@@ -127,13 +127,25 @@ TEST_F(TouchingParts, OfAMeshAreOneWhereItConformsAfterwards) {
   EXPECT_EQ(merge(), 9 + 9 + 9);
 }
 
-/// Faces of the first and the third are the same, or cut the other way, others would fit; but slits would be left,
-/// whose sides have no edge in common.
-TEST_F(TouchingParts, StayApartWhereNotAllConforms) {
+/// Faces of the first and the third are the same, or cut the other way, others are finer or coarser by up to two
+/// levels.
+TEST_F(TouchingParts, OfAMeshAreOneWhereLevelsAreLeftOut) {
   add_cube(4, Vec3(0, 0, 1));
   add_cube(2, Vec3(0, 1, 0));
   add_cube(4, Vec3(0, 1, 1), true);
   add_cube(8, Vec3(1, 0, 0));
+  add_cube(4, Vec3(1, 1, 0));
+  std::set<std::array<double, 3>> places;
+  for (const Vec3 &p : mesh.points) places.insert({p.x, p.y, p.z});
+  EXPECT_EQ(merge(), std::int64_t(mesh.points.size() - places.size()));
+}
+
+/// Others would fit; but one does not, and slits would be left.
+TEST_F(TouchingParts, StayApartWhereNotAllConforms) {
+  add_cube(4, Vec3(0, 0, 1));
+  add_cube(2, Vec3(0, 1, 0));
+  add_cube(4, Vec3(0, 1, 1), true);
+  add_cube(5, Vec3(1, 0, 0));
   add_cube(4, Vec3(1, 1, 0));
   EXPECT_EQ(merge(), 25) << "of the first and the third";
 }

@@ -1,0 +1,35 @@
+// Whether points lie on edges, and triangles on one another, but for the rounding of coordinates.
+#pragma once
+#include <algorithm>
+#include <cmath>
+
+#include "geometry.hpp"
+#include "mesh.hpp"
+
+namespace tetlod {
+
+/// Of the corners of the triangles: coordinates may be of single precision.
+inline double rounding_of(Span<const Vec3> points, Span<const Triangle> triangles) {
+  double largest = 0;
+  for (const Triangle &t : triangles)
+    for (const std::int32_t v : t)
+      for (int k = 0; k < 3; k++) largest = std::max(largest, std::abs(points[std::size_t(v)][k]));
+  return 1e-7 * largest;
+}
+
+/// Whether the tip of the shorter of two ways lies on the longer.
+inline bool lies_on(const Vec3 &shorter, const Vec3 &longer, double rounding) {
+  constexpr double most = 1e-3;  // of the shorter one
+  const double off2 = length2(glm::cross(shorter, longer)), length2_of_longer = length2(longer);
+  return off2 <= rounding * rounding * length2_of_longer &&
+         off2 <= most * most * length2(shorter) * length2_of_longer && glm::dot(shorter, longer) > 0;
+}
+
+/// Whether normals are opposite, but for rounding.
+inline bool are_back_to_back(const Vec3 &normal, const Vec3 &other) {
+  constexpr double rounding = 0.01;
+  return glm::dot(normal, other) < 0 &&
+         length2(glm::cross(normal, other)) <= rounding * rounding * length2(normal) * length2(other);
+}
+
+}  // namespace tetlod
