@@ -8,7 +8,7 @@ namespace tetlod {
 
 namespace {
 
-/// A hash table of points by a key of three numbers: their coordinates, or the cell of a grid that they lie in.
+/// A hash table of points by the cell of a grid that they lie in.
 class PointTable {
  public:
   PointTable(std::size_t points, Job &job) : first_(&job.memory), next_(&job.memory) {
@@ -45,33 +45,26 @@ class PointTable {
   Array<std::int32_t> first_, next_;
 };
 
-std::int32_t find_equal(const PointTable &table, Span<const Vec3> points, std::int32_t v) {
-  std::int32_t found = v;
-  const Vec3 &p = points[std::size_t(v)];
-  table.for_each(p, [&](std::int32_t other) {
-    if (points[std::size_t(other)] == p) found = other;
-  });
-  return found;
-}
-
-/// Of the cells that points are looked up by: the tolerance, but not so small that coordinates have no cell.
+/// Of the cells that points are looked up by: so large that most are farther than the tolerance from other cells, but
+/// not so small that coordinates have none.
 double size_of_cells(Span<const Vec3> points, Span<const std::uint8_t> used, double tolerance) {
-  constexpr double finest = 1e-12;
+  constexpr double tolerances = 8, finest = 1e-10;
   double largest = 0;
   for (std::size_t v = 0; v < points.size(); v++)
     for (int k = 0; k < 3 && used[v]; k++) largest = std::max(largest, std::abs(points[v][k]));
-  return std::max(tolerance, finest * largest);
+  const double size = std::max(tolerances * tolerance, finest * largest);
+  return size > 0 ? size : 1;
 }
 
 std::int32_t find_near(const PointTable &table, Span<const Vec3> points, std::int32_t v, double tolerance,
                        double size) {
   std::int32_t found = v;
   const Vec3 &p = points[std::size_t(v)];
-  const Vec3 cell = glm::floor(p / size);
-  for (int dx = -1; dx <= 1; dx++)
-    for (int dy = -1; dy <= 1; dy++)
-      for (int dz = -1; dz <= 1; dz++)
-        table.for_each(cell + Vec3(dx, dy, dz), [&](std::int32_t other) {
+  const Vec3 low = glm::floor((p - tolerance) / size), high = glm::floor((p + tolerance) / size);
+  for (double x = low.x; x <= high.x; x++)
+    for (double y = low.y; y <= high.y; y++)
+      for (double z = low.z; z <= high.z; z++)
+        table.for_each(Vec3(x, y, z), [&](std::int32_t other) {
           if (other < found && length2(points[std::size_t(other)] - p) <= tolerance * tolerance) found = other;
         });
   return found;
@@ -82,7 +75,7 @@ std::int32_t find_near(const PointTable &table, Span<const Vec3> points, std::in
 std::int64_t merge_points(Span<const Vec3> points, Span<const std::uint8_t> used, double tolerance, Job &job,
                           Array<std::int32_t> &representative) {
   PointTable table(points.size(), job);
-  const double size = tolerance > 0 ? size_of_cells(points, used, tolerance) : 0;
+  const double size = size_of_cells(points, used, tolerance);
   representative.resize(points.size());
   std::int64_t merged = 0;
   for (std::size_t i = 0; i < points.size(); i++) {
@@ -90,11 +83,10 @@ std::int64_t merge_points(Span<const Vec3> points, Span<const std::uint8_t> used
     if (i % 4096 == 0) job.poll(double(i) / double(points.size()));
     representative[i] = v;
     if (!used[i]) continue;
-    const std::int32_t found =
-        tolerance > 0 ? find_near(table, points, v, tolerance, size) : find_equal(table, points, v);
+    const std::int32_t found = find_near(table, points, v, tolerance, size);
     representative[i] = found;
     merged += found != v;
-    if (found == v) table.insert(tolerance > 0 ? glm::floor(points[i] / size) : points[i], v);
+    if (found == v) table.insert(glm::floor(points[i] / size), v);
   }
   return merged;
 }

@@ -2,6 +2,7 @@
 #pragma once
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <glm/common.hpp>
@@ -122,6 +123,11 @@ struct Box {
     high = glm::max(high, other.high);
   }
   double diagonal() const { return glm::length(high - low); }
+  double largest_coordinate() const {
+    double largest = 0;
+    for (int k = 0; k < 3; k++) largest = std::max({largest, std::abs(low[k]), std::abs(high[k])});
+    return largest;
+  }
   int longest_axis() const {
     const Vec3 extent = high - low;
     return extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;

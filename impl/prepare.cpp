@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "budget.hpp"
 #include "conforming.hpp"
 #include "first_culprit.hpp"
 #include "geometry.hpp"
-#include "merge_points.hpp"
+#include "merge_coincident.hpp"
 #include "status.hpp"
-#include "touching_parts.hpp"
 #include "whole_arrays.hpp"
 
 namespace tetlod {
@@ -321,19 +319,9 @@ void check_counts(const Input &input) {
 
 int extreme_exponent(const Box &box) {
   constexpr int far_from_one = 100;
-  double most = 0;
-  for (int k = 0; k < 3; k++) most = std::max({most, std::abs(box.low[k]), std::abs(box.high[k])});
+  const double most = box.largest_coordinate();
   const int exponent = most > 0 && std::isfinite(most) ? std::ilogb(most) : 0;
   return std::abs(exponent) > far_from_one ? exponent : 0;
-}
-
-Merged merge_coincident(Span<const Vec3> points, Span<const Tet> tets, Span<const std::uint8_t> used, const Box &box,
-                        const Options &options, Job &job, Array<std::int32_t> &representative) {
-  const double tolerance = options.merge_tolerance * box.diagonal();
-  const std::int64_t merged = merge_points(points, used, std::isfinite(tolerance) ? tolerance : 0, job, representative);
-  if (merged == 0 || !takes_contacts(options)) return {merged, merged > 0};
-  const std::int64_t left = keep_touching_parts_apart(points, tets, used, job, representative);
-  return {left, left < merged};
 }
 
 void prepare_original(const Input &input, const Options &options, Job &job, Original &original) {

@@ -54,15 +54,6 @@ void check_counts(const Input &input);
 /// The same for a field that has so many tuples.
 void check_count(const Input &input, const std::string &field, std::int64_t tuples, Association association);
 
-struct Merged {
-  std::int64_t points = 0;  ///< merged away
-  bool depends = false;     ///< where parts may not be in contact, or may, it could be others
-};
-/// Which points become one: merge_points() with the option's tolerance in that box, and, where parts may be in contact,
-/// keep_touching_parts_apart().
-Merged merge_coincident(Span<const Vec3> points, Span<const Tet> tets, Span<const std::uint8_t> used, const Box &box,
-                        const Options &options, Job &job, Array<std::int32_t> &representative);
-
 /// Coordinates so large or small that their sixth powers leave the range of doubles are scaled, exactly.
 /// Throws what check_counts does, mesh_index, mesh_nonfinite.
 void prepare_original(const Input &input, const Options &options, Job &job, Original &original);

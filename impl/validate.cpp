@@ -7,6 +7,7 @@
 #include "extract_boundary.hpp"
 #include "face_sweep.hpp"
 #include "geometry.hpp"
+#include "merge_coincident.hpp"
 #include "nested_solids.hpp"
 #include "predicates.hpp"
 #include "prepare.hpp"

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <map>
 #include <random>
 #include <set>
@@ -207,6 +208,28 @@ TEST_F(TouchingParts, AreMergedWhereNoContactsAreTaken) {
     Original original(host.memory);
     prepare_original(input_of(mesh), options, host.job, original);
     EXPECT_EQ(original.merged_points, collapses ? 0 : 4);
+  }
+}
+
+/// Points of two blocks whose coordinates were computed twice are at one place.
+TEST_F(TouchingParts, OfOneMeshThoughTheyAreOffByRounding) {
+  for (const double offset : {0.0, 1e6}) {
+    mesh = Mesh();
+    add_cube(4, Vec3(offset, 0, 0));
+    const std::size_t first = mesh.points.size();
+    add_cube(4, Vec3(offset + 1, 0, 0));
+    std::mt19937_64 random(3);
+    for (std::size_t v = first; v < mesh.points.size(); v++)
+      for (int k = 0; k < 3; k++)
+        if (random() % 2 == 0) mesh.points[v][k] = std::nextafter(mesh.points[v][k], random() % 2 == 0 ? -1e9 : 1e9);
+    mesh.scalars.assign(mesh.points.size(), 0);
+    for (const double ratio : {0.0, 0.1}) {
+      Options options;
+      options.target_ratio = ratio;
+      Original original(host.memory);
+      prepare_original(input_of(mesh), options, host.job, original);
+      EXPECT_EQ(original.merged_points, 25) << offset;
+    }
   }
 }
 
