@@ -35,9 +35,9 @@ class FlatTets : private TetComplex {
   };
   static constexpr std::size_t longest_ring = 8, most_fresh = 2 * (longest_ring - 2);
   using Ring = Few<std::int32_t, longest_ring>;
-  /// Tets, what takes their place, and the numbers of these.
+  /// Tets, what takes their place, and the numbers of these. Either may be what took the other's place.
   struct Way {
-    Ring old;
+    Few<std::int32_t, most_fresh> old;
     Few<Tet, most_fresh> fresh;
     Few<std::int32_t, most_fresh> number;
   };
