@@ -130,6 +130,7 @@ class Inspection {
     };
     tets_.erase(std::remove_if(tets_.begin(), tets_.end(), [&](const Corners &t) { return !has_all(t); }), tets_.end());
     look_for_gaps(tets_by_place());
+    look_for_torn_parts();
     const std::vector<std::int64_t> part = parts_of_points();
     std::map<std::pair<Point, std::int64_t>, std::int64_t> first;
     std::vector<std::int64_t> renamed(used_.size());
@@ -163,6 +164,15 @@ class Inspection {
     }
     for (std::size_t v = 0; v < part.size(); v++) part[v] = root(std::int64_t(v));
     return part;
+  }
+
+  /// Two, each of as many tets as the library asks for, have points at one place.
+  void look_for_torn_parts() {
+    constexpr std::size_t fewest = 64;
+    if (!repairs_.takes_contacts || tets_.size() < 2 * fewest) return;
+    std::map<Point, std::int64_t> first;
+    for (std::size_t v = 0; v < used_.size(); v++)
+      facts_.gaps = facts_.gaps || (used_[v] && !first.emplace(place(std::int64_t(v)), std::int64_t(v)).second);
   }
 
   /// Degenerate ones have no faces: all their corners are one.

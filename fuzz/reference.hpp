@@ -24,7 +24,8 @@ struct Facts {
   /// cannot be told.
   bool wide = false;
   /// Vertices lie on edges, also of other parts, or faces lie on one another: tets are divided there, others take
-  /// their place, parts are joined, where that is repaired. What comes of it is not found out again.
+  /// their place, parts are joined, where that is repaired; or parts may be large enough to stay apart where a field
+  /// jumps. What comes of it is not found out again.
   bool gaps = false;
 };
 

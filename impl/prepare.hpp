@@ -31,6 +31,7 @@ struct Original {
   Array<std::uint8_t> left;           ///< of each: a tet of the view has it; empty: none was dropped
   std::int64_t merged_points = 0;     ///< coincident points that became one
   bool merging_depends = false;       ///< on whether parts may be in contact
+  bool merging_sees_values = false;   ///< which points became one depends on them
   std::int64_t nonfinite_points = 0;  ///< without a finite value, ignored with their tets
   std::int64_t dropped_tets = 0;      ///< with such a point, or with a repeated vertex, as submitted or after merging
   std::int64_t divided_tets = 0;      ///< that others take the place of: make_conforming

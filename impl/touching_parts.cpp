@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 #include "conforming.hpp"
 #include "disjoint_sets.hpp"
 #include "face_sweep.hpp"
+#include "field_jumps.hpp"
 
 namespace tetlod {
 
@@ -13,28 +15,30 @@ namespace {
 
 class TouchingParts {
  public:
-  TouchingParts(Span<const Vec3> points, Span<const Tet> tets, Span<const std::uint8_t> used, Job &job,
-                Array<std::int32_t> &representative)
-      : points_(points),
+  TouchingParts(const Input &input, Span<const Vec3> points, Span<const Tet> tets, Span<const std::uint8_t> used,
+                Job &job, Array<std::int32_t> &representative)
+      : input_(input),
+        points_(points),
         tets_(tets),
         used_(used),
         job_(job),
         representative_(representative),
-        parts_(representative.size(), job.memory) {}
+        parts_(representative.size(), job.memory),
+        torn_(&job.memory) {}
 
-  std::int64_t keep_apart() {
+  KeptApart keep_apart() {
     join_tets();
     if (any_apart()) {
       NumberedTets tets = tets_by_place();
+      find_torn(tets);
       const std::int64_t parts = parts_.count();
       join_across_faces(tets);
       const bool are_of_one_mesh = parts_.count() < parts;  // not of an assembly, where some happen to fit
       if (are_of_one_mesh && any_apart() && can_conform(job_, tets)) join_across_faces(tets);
     }
     if (any_apart()) split_places();
-    std::int64_t merged = 0;
-    for (std::size_t v = 0; v < representative_.size(); v++) merged += representative_[v] != std::int32_t(v);
-    return merged;
+    for (std::size_t v = 0; v < representative_.size(); v++) kept_.merged += representative_[v] != std::int32_t(v);
+    return kept_;
   }
 
  private:
@@ -72,12 +76,50 @@ class TouchingParts {
     return tets;
   }
 
-  void join_across_faces(const NumberedTets &tets) {
-    const auto first_point = [&](std::size_t t) { return tets_[std::size_t(tets.number[t])][0]; };
+  /// visit(tet, other) of tets that have a face in common, as they were submitted.
+  template <class Visit>
+  void for_neighbours(const NumberedTets &tets, const Visit &visit) const {
     for_each_face(tets.view(), {}, job_, [&](const FaceUse *first, const FaceUse *last) {
       for (const FaceUse *use = first + 1; use < last; use++)
-        parts_.join(first_point(first->tet()), first_point(use->tet()));
+        visit(tets_[std::size_t(tets.number[first->tet()])], tets_[std::size_t(tets.number[use->tet()])]);
     });
+  }
+
+  void join_across_faces(const NumberedTets &tets) {
+    for_neighbours(tets, [&](const Tet &t, const Tet &u) {
+      if (!std::binary_search(torn_.begin(), torn_.end(), pair_of(t, u))) parts_.join(t[0], u[0]);
+    });
+  }
+
+  /// Which parts, as submitted, a field jumps between; but not small ones, as the cells of a method that lets it jump.
+  void find_torn(const NumberedTets &tets) {
+    constexpr std::int32_t fewest = 64;
+    Array<std::int32_t> count(representative_.size(), 0, &job_.memory);
+    part_.resize(representative_.size());
+    for (std::size_t v = 0; v < part_.size(); v++) part_[v] = parts_.lowest(std::int32_t(v));
+    for (const std::int32_t t : tets.number) count[std::size_t(part(tets_[std::size_t(t)]))]++;
+    const auto is_large = [&](const Tet &t) { return count[std::size_t(part(t))] >= fewest; };
+    const FieldJumps fields(input_, used_, job_);
+    for_neighbours(tets, [&](const Tet &t, const Tet &u) {
+      if (part(t) == part(u) || !is_large(t) || !is_large(u)) return;
+      kept_.sees_values = true;
+      if (is_torn(fields, t, u)) torn_.push_back(pair_of(t, u));
+    });
+    std::sort(torn_.begin(), torn_.end());
+    torn_.erase(std::unique(torn_.begin(), torn_.end()), torn_.end());
+  }
+
+  std::int32_t part(const Tet &t) const { return part_[std::size_t(t[0])]; }
+  std::pair<std::int32_t, std::int32_t> pair_of(const Tet &t, const Tet &u) const {
+    return std::minmax(std::int32_t(part(t)), std::int32_t(part(u)));
+  }
+
+  /// At a place that both have.
+  bool is_torn(const FieldJumps &fields, const Tet &t, const Tet &u) const {
+    for (const std::int32_t v : t)
+      for (const std::int32_t w : u)
+        if (representative_[std::size_t(v)] == representative_[std::size_t(w)] && fields.jumps(v, w)) return true;
+    return false;
   }
 
   /// Where several parts are at one place, the lowest point of each stands for that part's.
@@ -105,19 +147,23 @@ class TouchingParts {
     }
   }
 
+  const Input &input_;
   Span<const Vec3> points_;
   Span<const Tet> tets_;
   Span<const std::uint8_t> used_;
   Job &job_;
   Array<std::int32_t> &representative_;
-  DisjointSets parts_;  // of the points
+  KeptApart kept_;
+  DisjointSets parts_;                                 // of the points
+  Array<std::int32_t> part_{&job_.memory};             // of each, before any are joined across faces
+  Array<std::pair<std::int32_t, std::int32_t>> torn_;  // of these, ascending
 };
 
 }  // namespace
 
-std::int64_t keep_touching_parts_apart(Span<const Vec3> points, Span<const Tet> tets, Span<const std::uint8_t> used,
-                                       Job &job, Array<std::int32_t> &representative) {
-  return TouchingParts(points, tets, used, job, representative).keep_apart();
+KeptApart keep_touching_parts_apart(const Input &input, Span<const Vec3> points, Span<const Tet> tets,
+                                    Span<const std::uint8_t> used, Job &job, Array<std::int32_t> &representative) {
+  return TouchingParts(input, points, tets, used, job, representative).keep_apart();
 }
 
 }  // namespace tetlod

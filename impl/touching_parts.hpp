@@ -1,17 +1,22 @@
 // Parts of a mesh that have points of their own where they touch, as those of an assembly.
 #pragma once
 #include "job.hpp"
-#include "mesh.hpp"
+#include "pipeline.hpp"
 
 namespace tetlod {
 
-/// Where parts have a face in common the mesh goes on from the one to the other; if any have, also where it conforms
-/// only after make_conforming(). Where they only touch, at a vertex, an edge or where faces lie on one another in other
-/// ways, it does not, and points of several parts at one place would make slits and edges of four triangles of it.
-/// representative: as merge_points() leaves it; of points at one place, each part's become one of its own. Parts: tets
-/// that have points in common, as submitted, or a face by place. Tets with an unused vertex are none. Returns how many
-/// are merged away then.
-std::int64_t keep_touching_parts_apart(Span<const Vec3> points, Span<const Tet> tets, Span<const std::uint8_t> used,
-                                       Job &job, Array<std::int32_t> &representative);
+struct KeptApart {
+  std::int64_t merged = 0;   ///< points, all the same
+  bool sees_values = false;  ///< with others more or fewer might be
+};
+
+/// Where parts have a face in common the mesh goes on from the one to the other, unless a field that steers jumps
+/// between them somewhere, by more than a hundredth of its range, and both have 64 tets; if any have, also where it
+/// conforms only after make_conforming(). Where they only touch, at a vertex, an edge or where faces lie on one another
+/// in other ways, it does not, and points of several parts at one place would make slits and edges of four triangles of
+/// it. representative: as merge_points() leaves it; of points at one place, each part's become one of its own. Parts:
+/// tets that have points in common, as submitted, or a face by place. Tets with an unused vertex are none.
+KeptApart keep_touching_parts_apart(const Input &input, Span<const Vec3> points, Span<const Tet> tets,
+                                    Span<const std::uint8_t> used, Job &job, Array<std::int32_t> &representative);
 
 }  // namespace tetlod

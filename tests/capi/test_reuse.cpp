@@ -276,6 +276,32 @@ TEST_F(Reuse, ValuesThatAreNone) {
 }
 
 /// Values, points and tets that have to be copied.
+/// Two halves with points of their own in the middle are one while no field jumps there.
+TEST_F(Reuse, ValuesThatTear) {
+  const std::size_t points = cube.values.size();
+  std::vector<std::int32_t> copy(points, -1);
+  for (std::size_t t = 0; t < cube.corners.size(); t += 4) {
+    double middle = 0;
+    for (std::size_t k = 0; k < 4; k++) middle += cube.xyz[3 * std::size_t(cube.corners[t + k])] / 4;
+    for (std::size_t k = 0; k < 4; k++) {
+      const auto v = std::size_t(cube.corners[t + k]);
+      if (middle < 0.5 || cube.xyz[3 * v] != 0.5) continue;
+      if (copy[v] < 0) {
+        copy[v] = std::int32_t(cube.values.size());
+        for (std::size_t i = 0; i < 3; i++) cube.xyz.push_back(cube.xyz[3 * v + i]);
+        cube.values.push_back(0);
+      }
+      cube.corners[t + k] = copy[v];
+    }
+  }
+  options.push_back([](tetlod_context *of) { tetlod_set_real(of, TETLOD_OPT_TARGET_RATIO, 0.2); });
+  for (const double jump : {0.0, 1.0, 0.5, 0.0}) {
+    new_values(0);
+    for (std::size_t v = points; v < cube.values.size(); v++) cube.values[v] += jump;
+    EXPECT_EQ(expect_fresh_bytes().components, jump > 0 ? 2 : 1) << jump;
+  }
+}
+
 TEST_F(Reuse, OtherLayouts) {
   const std::size_t points = cube.values.size();
   std::vector<float> values(cube.values.begin(), cube.values.end());

@@ -188,6 +188,28 @@ TEST_F(Assemblies, FieldsAndErrorsAreThoseOfTheOwnPart) {
   }
 }
 
+/// Two halves of a cube with the same faces between them, and another field in each.
+TEST_F(Assemblies, PartsThatAFieldJumpsBetweenStayApart) {
+  add(8, Vec3(0), Vec3(1));
+  add(8, Vec3(1, 0, 0), Vec3(2, 1, 1));
+  Mesh &second = parts[1];
+  for (double &value : second.scalars) value = 3 - value;
+  std::copy(second.scalars.begin(), second.scalars.end(),
+            assembly.scalars.begin() + std::ptrdiff_t(parts[0].points.size()));
+  for (const auto effort : {effort_fast, effort_accurate}) {
+    options.effort = effort;
+    options.target_ratio = 0.1;
+    simplify(assembly);
+    expect_each_sound();
+    EXPECT_EQ(report().components, 2);
+    for (const Mesh &part : parts) EXPECT_LT(largest_error_of(part), 0.15);
+  }
+  options.target_ratio = 0;
+  options.max_error = 0.02;
+  simplify(assembly);
+  for (const Mesh &part : parts) EXPECT_LE(largest_error_of(part), 0.02 * (1 + 1e-9));
+}
+
 /// Also where parts are in each other a little, and what is nearest on the boundary, or at a place inside, is
 /// another's.
 TEST_F(Assemblies, NoPartGetsAnothersValues) {

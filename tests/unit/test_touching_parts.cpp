@@ -38,8 +38,10 @@ class TouchingParts : public testing::Test {
   }
   std::int64_t merge() {
     merge_all();
-    return keep_touching_parts_apart(mesh.view().points, mesh.view().tets, {used.data(), used.size()}, host.job,
-                                     representative);
+    mesh.scalars.resize(mesh.points.size(), 0);
+    return keep_touching_parts_apart(input_of(mesh), mesh.view().points, mesh.view().tets, {used.data(), used.size()},
+                                     host.job, representative)
+        .merged;
   }
 
   /// Part by part, tet by tet, until nothing changes.
@@ -209,6 +211,28 @@ TEST_F(TouchingParts, AreMergedWhereNoContactsAreTaken) {
     prepare_original(input_of(mesh), options, host.job, original);
     EXPECT_EQ(original.merged_points, collapses ? 0 : 4);
   }
+}
+
+/// The field jumps between the first and the second somewhere, by so much of its range, but not to the third.
+TEST_F(TouchingParts, StayApartWhereAFieldJumps) {
+  for (const double jump : {0.0, 0.005, 0.02, 1.0}) {
+    mesh = Mesh();
+    for (const Vec3 &corner : {Vec3(0), Vec3(1, 0, 0), Vec3(0, 1, 0)}) add_cube(3, corner);
+    for (std::size_t v = 0; v < mesh.points.size(); v++) mesh.scalars[v] = mesh.points[v].y / 2;
+    std::size_t torn = 64;  // of the second
+    while (mesh.points[torn] != Vec3(1, 1, 1)) torn++;
+    EXPECT_EQ(merge(), 16 + 16);
+    mesh.scalars[torn] -= jump;
+    EXPECT_EQ(merge(), jump > 0.01 ? 16 : 32) << jump;
+  }
+}
+
+/// They may be the cells of a method that lets it jump everywhere.
+TEST_F(TouchingParts, OfFewTetsMergeWhateverTheirValues) {
+  add_cube(2, Vec3(0));
+  add_cube(2, Vec3(1, 0, 0));
+  for (std::size_t v = 0; v < mesh.points.size(); v++) mesh.scalars[v] = double(v);
+  EXPECT_EQ(merge(), 9);
 }
 
 /// Points of two blocks whose coordinates were computed twice are at one place.

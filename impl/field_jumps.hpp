@@ -1,0 +1,44 @@
+// Where the fields that steer jump between two parts of a mesh that have points of their own at one place.
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "job.hpp"
+#include "pipeline.hpp"
+
+namespace tetlod {
+
+class FieldJumps {
+ public:
+  FieldJumps(const Input &input, Span<const std::uint8_t> used, Job &job) : input_(input) {
+    for (std::size_t k = 0; k < input.steering_fields(); k++) {
+      double low = std::numeric_limits<double>::infinity(), high = -low;
+      for (std::size_t v = 0; v < used.size(); v++) {
+        job.poll_at(v, 0.9);
+        if (!used[v]) continue;
+        low = std::min(low, value(k, v));
+        high = std::max(high, value(k, v));
+      }
+      most_[k] = share * (high - low);
+    }
+  }
+
+  /// By more than a hundredth of the range.
+  bool jumps(std::int32_t v, std::int32_t u) const {
+    for (std::size_t k = 0; k < input_.steering_fields(); k++)
+      if (std::abs(value(k, std::size_t(v)) - value(k, std::size_t(u))) > most_[k]) return true;
+    return false;
+  }
+
+ private:
+  static constexpr double share = 0.01;
+  double value(std::size_t k, std::size_t v) const {
+    return (k == 0 ? input_.scalars : input_.steering[k - 1].values).real(std::int64_t(v), 0);
+  }
+  const Input &input_;
+  std::array<double, most_fields> most_{};
+};
+
+}  // namespace tetlod
