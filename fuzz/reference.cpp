@@ -98,13 +98,28 @@ class Inspection {
   void look_at_values() {
     facts_.low = std::numeric_limits<double>::infinity();
     facts_.high = -facts_.low;
-    for (const Corners &tet : facts_.tets)
+    for (const Corners &tet : facts_.nonmanifold_faces == 0 ? facts_.tets : tets_)
       for (const std::int64_t v : tet) {
         const double value = mesh_.values[std::size_t(v)];
         if (!std::isfinite(value)) continue;
         facts_.low = std::min(facts_.low, value);
         facts_.high = std::max(facts_.high, value);
       }
+  }
+
+  /// Two used points that are not equal.
+  bool any_near(double distance) const {
+    std::vector<Point> points;
+    for (std::size_t v = 0; v < used_.size(); v++)
+      if (used_[v]) points.push_back(place(std::int64_t(v)));
+    std::sort(points.begin(), points.end());
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    for (std::size_t i = 0; i < points.size(); i++)
+      for (std::size_t j = i + 1; j < points.size() && points[j][0] - points[i][0] <= distance; j++)
+        if (std::hypot(points[j][0] - points[i][0], points[j][1] - points[i][1], points[j][2] - points[i][2]) <=
+            distance)
+          return true;
+    return false;
   }
 
   void look_at_range() {
@@ -115,7 +130,7 @@ class Inspection {
         least = std::min(least, std::abs(x));
         most = std::max(most, std::abs(x));
       }
-    facts_.wide = most * 1e-90 > least;
+    facts_.wide = most * 1e-90 > least || any_near(4e-12 * most);
   }
 
   Point place(std::int64_t v) const {

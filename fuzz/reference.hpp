@@ -21,7 +21,7 @@ struct Facts {
   std::vector<Face> boundary;  ///< outward, in the numbers of the mesh
   double low = 0, high = 0;    ///< of the values of the points that tets have which are not dropped
   /// The sizes of coordinates differ by more than 1e90: products of three leave the range of doubles, and what is flat
-  /// cannot be told.
+  /// cannot be told. Or points differ by no more than rounding, for which they are at one place.
   bool wide = false;
   /// Vertices lie on edges, also of other parts, or faces lie on one another: tets are divided there, others take
   /// their place, parts are joined, where that is repaired; or parts may be large enough to stay apart where a field

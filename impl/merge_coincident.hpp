@@ -11,7 +11,7 @@ struct Merged {
 };
 
 /// Which points become one: merge_points() with the option's tolerance in that box, but with no less than what rounding
-/// makes of one place, unless a part is as thin as that; and, where parts may be in contact,
+/// makes of one place, unless the mesh is as thin as that; and, where parts may be in contact,
 /// keep_touching_parts_apart().
 Merged merge_coincident(const Input &input, Span<const Vec3> points, Span<const Tet> tets,
                         Span<const std::uint8_t> used, const Box &box, const Options &options, Job &job,

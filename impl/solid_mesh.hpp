@@ -146,7 +146,7 @@ class SolidMesh : public SolidComplex {
 
  private:
   /// Where nothing is lost, short edges first: what the square of a length counts as.
-  static constexpr double shape_share = 1e-6;
+  static constexpr double shape_share = 1e-8;
   /// The entry of a quadric that counts the tets a vertex stands for.
   static constexpr std::size_t tets_of_vertex = entry_of(3, 3);
 

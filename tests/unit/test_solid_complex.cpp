@@ -101,7 +101,7 @@ TEST_F(SolidAround, RemovalsCostTheErrorsOfTheFunctionsAround) {
         const auto normals =
             upright_normals<1>({solid.place(tet[0]), solid.place(tet[1]), solid.place(tet[2]), solid.place(tet[3])});
         const double off = dot<4>(normals[0], d);
-        expected += off * off + 1e-6 * length2(point_of(d));
+        expected += off * off + 1e-8 * length2(point_of(d));
       }
       EXPECT_NEAR(cost, expected, 1e-12 + 1e-9 * expected);
       visited.insert(u);
