@@ -34,8 +34,10 @@ class FieldJumps {
 
  private:
   static constexpr double share = 0.01;
+  /// 0 where there are too few, which others refuse.
   double value(std::size_t k, std::size_t v) const {
-    return (k == 0 ? input_.scalars : input_.steering[k - 1].values).real(std::int64_t(v), 0);
+    const StridedArray &values = k == 0 ? input_.scalars : input_.steering[k - 1].values;
+    return std::int64_t(v) < values.tuples ? values.real(std::int64_t(v), 0) : 0;
   }
   const Input &input_;
   std::array<double, most_fields> most_{};

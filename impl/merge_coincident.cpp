@@ -17,7 +17,7 @@ double rounding_of(const Box &box) { return std::max(1e-12 * box.diagonal(), 1e-
 /// Whether most tets have two points that are not equal, but became one: the mesh is thinner than rounding.
 bool flattens_most(Span<const Vec3> points, Span<const Tet> tets, Span<const std::int32_t> representative, Job &job) {
   const auto is_equal = [&](std::int32_t v, std::int32_t u) {
-    return points[std::size_t(v)] == points[std::size_t(u)];
+    return v == u || points[std::size_t(v)] == points[std::size_t(u)];
   };
   std::size_t v = 0;
   while (v < points.size() && is_equal(std::int32_t(v), representative[v])) v++;

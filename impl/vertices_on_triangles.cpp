@@ -47,14 +47,13 @@ class VerticesOnTriangles {
     const Vec3 outward = normal(triangle);
     VertexOnTriangle middlemost{-1, t, -1};
     double most = least;
-    int corners_met = 0;
+    bool has_common_corner = false;
     tree_.for_near(t, [&](std::int32_t other) {
       const Triangle &corners = triangles_[std::size_t(other)];
       if (!are_back_to_back(outward, normal(corners))) return;
       for (const std::int32_t v : corners) {
-        const auto corner = std::find(triangle.begin(), triangle.end(), v) - triangle.begin();
-        if (corner < 3) {
-          corners_met |= 1 << corner;
+        if (has(triangle, v)) {
+          has_common_corner = true;
           continue;
         }
         const Place place = place_on(triangle, outward, at(v));
@@ -65,7 +64,7 @@ class VerticesOnTriangles {
         most = place.to_rim;
       }
     });
-    return corners_met != 0 ? middlemost : VertexOnTriangle{-1, t, -1};
+    return has_common_corner ? middlemost : VertexOnTriangle{-1, t, -1};
   }
 
   /// Nowhere: no farther than nothing from the rim.

@@ -11,9 +11,9 @@ struct VertexOnTriangle {
   std::int32_t vertex, triangle, opposite;
 };
 
-/// Of a closed surface, seen from outside: of each triangle whose corners triangles have that lie back to back on it the
-/// middlemost other vertex of such a one on one of its edges, or, if there is none, inside of it. Solids whose faces are
-/// divided in other ways than one finer than the other have no corners in common there.
+/// Of a closed surface, seen from outside: of each triangle, if ones that lie back to back on it have a corner of it,
+/// the middlemost other vertex of these on one of its edges, or, if there is none, inside of it. Parts with points of
+/// their own have no corner in common.
 Array<VertexOnTriangle> find_vertices_on_triangles(Span<const Vec3> points, Span<const Triangle> triangles, Job &job);
 
 }  // namespace tetlod

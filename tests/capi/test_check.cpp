@@ -259,6 +259,24 @@ TEST(Check, NeedsNoScalars) {
   EXPECT_EQ(check(context.get()).status, TETLOD_OK);
 }
 
+/// Nor to look at two parts with points at one place.
+TEST(Check, NeedsNoScalarsOfParts) {
+  Cube cubes(6);
+  const std::size_t points = cubes.values.size(), corners = cubes.corners.size();
+  for (std::size_t i = 0; i < 3 * points; i++) cubes.xyz.push_back(cubes.xyz[i] + (i % 3 == 0 ? 1 : 0));
+  for (std::size_t i = 0; i < corners; i++) cubes.corners.push_back(cubes.corners[i] + std::int32_t(points));
+  cubes.values.resize(2 * points);
+  const Context context = make_context();
+  tetlod_set_real(context.get(), TETLOD_OPT_TARGET_RATIO, 0.1);
+  const tetlod_array xyz = array_of(TETLOD_FLOAT64, 2 * points, 3, cubes.xyz.data());
+  const tetlod_array tets = array_of(TETLOD_INT32, cubes.corners.size() / 4, 4, cubes.corners.data());
+  ASSERT_EQ(tetlod_submit_points(context.get(), &xyz), TETLOD_OK);
+  ASSERT_EQ(tetlod_submit_tets(context.get(), &tets, 0), TETLOD_OK);
+  EXPECT_EQ(check(context.get()).coincident.count, 49);
+  submit(context.get(), cubes);
+  EXPECT_EQ(check(context.get()).coincident.count, 0) << "a field jumps there";
+}
+
 TEST(Check, IgnoresPointsWithoutAFiniteValueTogetherWithTheirTets) {
   Cube cube(4);
   for (std::size_t v = 0; v < 25; v++) cube.values[v] = nan;  // the layer z = 0
