@@ -243,7 +243,7 @@ void Session::check_verdict(tetlod_status status, const Mesh &mesh, const Facts 
   if (status == TETLOD_ERR_MESH_INDEX) DEMAND(facts.index, "a vertex is out of range: %s", said.c_str());
   if (status == TETLOD_ERR_MESH_NONFINITE) DEMAND(nonfinite, "a number is not finite: %s", said.c_str());
   const bool merges = option(TETLOD_OPT_MERGE_TOLERANCE) > 0;
-  if (status == TETLOD_ERR_MESH_NONMANIFOLD && !merges)
+  if (status == TETLOD_ERR_MESH_NONMANIFOLD && !merges && !facts.wide)
     DEMAND(facts.nonmanifold_faces, "a face has more than two tets: %s", said.c_str());
   if (facts.index && !empty) DEMAND(status == TETLOD_ERR_MESH_INDEX || !is_about_mesh(status), "an index: %d", status);
 }
