@@ -475,7 +475,7 @@ TETLOD_API tetlod_status tetlod_fetch_field(const tetlod_context *context, const
  * lowest is named. The scalars of the result are not made from it where decimation placed a vertex.
  * It takes no time until it is asked for: unless the run carried a point field, the first call of this or of
  * tetlod_transfer for a result reads points and tets, and of what steers, which may be of a later step, which values
- * are ignored: as in its run, else TETLOD_ERR_STATE. _ARGUMENT, _BUFFER_SIZE, _MEMORY_LIMIT, _CANCELLED, _MESH_*. */
+ * are ignored, or jump: as in its run, else _STATE. _ARGUMENT, _BUFFER_SIZE, _MEMORY_LIMIT, _CANCELLED, _MESH_*. */
 TETLOD_API tetlod_status tetlod_fetch_stencil(const tetlod_context *context, int32_t index_base, tetlod_array *ids,
                                               tetlod_array *weights);
 /* Moves any other point field (or the same at a later time) to the result by that stencil: simplified[i] = the mean of

@@ -41,7 +41,8 @@ void Beginning::prepare() {
 void Beginning::extract() {
   const StageTimer timer(Stage::boundary, job_, report_);
   if (!report_.reused_tets) prepare_boundary(input_, options_, job_, original_, boundary_);
-  prepared_.complete();
+  prepared_.complete(input_, job_);
+  result_.torn = original_.torn;
   describe_input(input_, original_, report_);
   describe_extraction(boundary_, report_);
 }

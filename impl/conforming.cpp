@@ -17,6 +17,8 @@ namespace {
 
 /// Of the tets: between levels one becomes eight, and most are not between levels. Where tets overlap there is no end.
 constexpr std::size_t largest_growth = 8;
+/// As many vertices may hang on one edge.
+constexpr int most_rounds = 100;
 
 bool has_gaps(const MeshView &mesh, const Boundary &boundary, Job &job) {
   const TriangleCorners corners(mesh.points.size(), boundary.triangles, job);
@@ -43,15 +45,17 @@ bool is_solid(const NumberedTets &tets, bool nor_touches_itself, Job &job) {
 
 /// False: they come to no end.
 bool close_gaps(Job &job, NumberedTets &tets, bool inside_too) {
-  const std::size_t most = largest_growth * tets.tets.size();
+  const std::size_t most = std::min(largest_growth * tets.tets.size(), std::size_t(max_count));
   bool is_refined = false;  // in places: others take no look at each triangle
   if (!tets.find_boundary(job)) return false;
-  while (divide_at_hanging_vertices(job, tets) || (is_refined && divide_at_vertices_on_triangles(job, tets, inside_too))) {
+  for (int round = 0;
+       divide_at_hanging_vertices(job, tets) || (is_refined && divide_at_vertices_on_triangles(job, tets, inside_too));
+       round++) {
     is_refined = true;
-    if (tets.tets.size() > most || !tets.find_boundary(job)) return false;
+    if (round == most_rounds || tets.tets.size() > most || !tets.find_boundary(job)) return false;
   }
   close_crossed_quads(job, tets);
-  return tets.find_boundary(job) && !tets.boundary.triangles.empty();
+  return tets.find_boundary(job);
 }
 
 bool have_same_vertices(Tet one, Tet other) {

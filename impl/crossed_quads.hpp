@@ -24,8 +24,8 @@ Array<CrossedQuad> find_crossed_quads(const MeshView &mesh, const TriangleCorner
                                       Span<const std::int32_t> tet_of, Job &job);
 
 /// Pairs of triangles with an edge in common, each of which has one that lies back to back on another at one of its
-/// corners, where the other diagonal of their quad is a Delaunay edge, and theirs is none: `other` is -1, -1. When all of
-/// both sides are, the sides are the same, but for squares.
+/// corners, where the other diagonal of their quad is a Delaunay edge, and theirs is none: `other` is -1, -1. When all
+/// of both sides are, the sides are the same, but for squares.
 Array<CrossedQuad> find_slanted_quads(const MeshView &mesh, const TriangleCorners &corners,
                                       Span<const std::int32_t> tet_of, Job &job);
 

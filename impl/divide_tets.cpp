@@ -47,6 +47,9 @@ class EdgeDivision {
     Array<std::int32_t> at_edge(&job_.memory);
     for (const std::int32_t t : lists_[std::size_t(list_of_[std::size_t(h.from)])])
       if (has(t, h.from) && has(t, h.to)) at_edge.push_back(t);
+    std::sort(at_edge.begin(), at_edge.end());
+    at_edge.erase(std::unique(at_edge.begin(), at_edge.end()),
+                  at_edge.end());  // one may have lost the vertex meanwhile
     if (at_edge.empty() ||
         !std::all_of(at_edge.begin(), at_edge.end(), [&](std::int32_t t) { return may_divide(t, h); }))
       return false;

@@ -8,8 +8,8 @@ namespace tetlod {
 /// before. False: there is nothing to divide.
 bool divide_at_hanging_vertices(Job &job, NumberedTets &tets);
 
-/// The same at vertices anywhere on edges of triangles of the boundary, or, if that is asked for, and none is on one,
-/// inside of triangles.
+/// The same at vertices anywhere on edges of triangles of the boundary, or, if that is asked for, and no edge is
+/// divided, inside of triangles.
 bool divide_at_vertices_on_triangles(Job &job, NumberedTets &tets, bool inside_too);
 
 }  // namespace tetlod

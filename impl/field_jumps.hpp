@@ -17,7 +17,7 @@ class FieldJumps {
       double low = std::numeric_limits<double>::infinity(), high = -low;
       for (std::size_t v = 0; v < used.size(); v++) {
         job.poll_at(v, 0.9);
-        if (!used[v]) continue;
+        if (!used[v] || !std::isfinite(value(k, v))) continue;
         low = std::min(low, value(k, v));
         high = std::max(high, value(k, v));
       }

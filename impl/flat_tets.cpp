@@ -12,7 +12,7 @@ namespace {
 /// Each takes up to a millisecond.
 constexpr int most_tries = 1000;
 
-/// Whether the order of a, b, c, d is one of those that have the winding of t.
+/// Whether the other, of the same vertices, has the winding of t.
 bool winds_as(const Tet &t, const Tet &other) {
   int inversions = 0;
   std::size_t at[4];

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "budget.hpp"
 #include "merge_points.hpp"
-#include "touching_parts.hpp"
 
 namespace tetlod {
 
@@ -14,13 +14,13 @@ namespace {
 /// By how much coordinates of one place may differ that were computed twice.
 double rounding_of(const Box &box) { return std::max(1e-12 * box.diagonal(), 1e-15 * box.largest_coordinate()); }
 
-/// Whether most tets have two points that are not equal, but became one: the mesh is thinner than rounding.
-bool flattens_most(Span<const Vec3> points, Span<const Tet> tets, Span<const std::int32_t> representative, Job &job) {
+/// Whether many tets have two points that are not equal, but became one: the mesh is as thin as that.
+bool flattens_many(Span<const Vec3> points, Span<const Tet> tets, Span<const std::int32_t> representative, Job &job) {
   const auto is_equal = [&](std::int32_t v, std::int32_t u) {
     return v == u || points[std::size_t(v)] == points[std::size_t(u)];
   };
   std::size_t v = 0;
-  while (v < points.size() && is_equal(std::int32_t(v), representative[v])) v++;
+  while (v < points.size() && is_equal(std::int32_t(v), representative[v])) job.poll_at(v++, 0.9);
   if (v == points.size()) return false;
   const auto is_flattened = [&](const Tet &t) {
     for (std::size_t i = 1; i < 4; i++)
@@ -29,19 +29,20 @@ bool flattens_most(Span<const Vec3> points, Span<const Tet> tets, Span<const std
           return true;
     return false;
   };
+  constexpr std::size_t many = 50;  // one in so many
   std::size_t flattened = 0;
   for (std::size_t t = 0; t < tets.size(); t++) {
     job.poll_at(t, 0.9);
     flattened += is_flattened(tets[t]);
   }
-  return 2 * flattened > tets.size();
+  return many * flattened > tets.size();
 }
 
 std::int64_t merge_places(Span<const Vec3> points, Span<const Tet> tets, Span<const std::uint8_t> used,
                           double tolerance, double rounding, Job &job, Array<std::int32_t> &representative) {
   if (tolerance < rounding) {
-    const std::int64_t merged = merge_points(points, used, rounding, job, representative);
-    if (!flattens_most(points, tets, representative, job)) return merged;
+    const std::int64_t merged = merge_rounded(points, used, rounding, job, representative);
+    if (merged >= 0 && !flattens_many(points, tets, representative, job)) return merged;
   }
   return merge_points(points, used, tolerance, job, representative);
 }
@@ -55,9 +56,9 @@ Merged merge_coincident(const Input &input, Span<const Vec3> points, Span<const 
   const double tolerance = is_finite ? options.merge_tolerance * box.diagonal() : 0;
   const double rounding = is_finite ? rounding_of(box) : 0;
   const std::int64_t merged = merge_places(points, tets, used, tolerance, rounding, job, representative);
-  if (merged == 0 || !takes_contacts(options)) return {merged, merged > 0, false};
-  const KeptApart kept = keep_touching_parts_apart(input, points, tets, used, job, representative);
-  return {kept.merged, kept.merged < merged || kept.sees_values, kept.sees_values};
+  if (merged == 0 || !takes_contacts(options)) return {merged, merged > 0, false, Torn(&job.memory)};
+  KeptApart kept = keep_touching_parts_apart(input, points, tets, used, job, representative);
+  return {kept.merged, kept.merged < merged || kept.sees_values, kept.sees_values, std::move(kept.torn)};
 }
 
 }  // namespace tetlod

@@ -1,6 +1,6 @@
 // Points at one place become one, but of parts that only touch.
 #pragma once
-#include "pipeline.hpp"
+#include "touching_parts.hpp"
 
 namespace tetlod {
 
@@ -8,6 +8,7 @@ struct Merged {
   std::int64_t points = 0;   ///< merged away
   bool depends = false;      ///< where parts may not be in contact, or may, it could be others
   bool sees_values = false;  ///< so it could with other values
+  Torn torn;
 };
 
 /// Which points become one: merge_points() with the option's tolerance in that box, but with no less than what rounding

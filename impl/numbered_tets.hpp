@@ -31,7 +31,9 @@ struct NumberedTets {
     try {
       extract_boundary(view(), job, boundary);
     } catch (const Error &error) {
-      if (error.status() != Status::mesh_nonmanifold && error.status() != Status::mesh_degenerate) throw;
+      if (error.status() != Status::mesh_nonmanifold && error.status() != Status::mesh_degenerate &&
+          error.status() != Status::mesh_too_large)
+        throw;
       return false;
     }
     return boundary.excluded.empty();

@@ -336,11 +336,12 @@ void prepare_original(const Input &input, const Options &options, Job &job, Orig
 
   // The diagonal here is that of what was submitted: which tets are left is not known before points are merged.
   Array<std::int32_t> representative(&job.memory);
-  const Merged merged = merge_coincident(input, original.view.points, original.view.tets, original.used, submitted,
-                                         options, job, representative);
+  Merged merged = merge_coincident(input, original.view.points, original.view.tets, original.used, submitted, options,
+                                   job, representative);
   original.merged_points = merged.points;
   original.merging_depends = merged.depends;
   original.merging_sees_values = merged.sees_values;
+  original.torn = std::move(merged.torn);
   read_flags(input, representative, job, original);
   if (original.merged_points || original.nonfinite_points || any_repeated_vertex(original.view.tets, job))
     drop_and_rename(representative, job, original);
@@ -364,7 +365,7 @@ void prepare_with_boundary(const Input &input, const Options &options, Job &job,
 
 bool renew_values(const Input &input, Job &job, Original &original) {
   check_counts(input);
-  if (original.nonfinite_points > 0 || original.merging_sees_values) return false;
+  if (original.nonfinite_points > 0) return false;
   const auto points = std::size_t(input.xyz[0].tuples), tets = std::size_t(input.tets.tuples);
   if (original.points.empty() && !interleaved_doubles(input.xyz)) return false;
   if (original.points.empty()) original.view.points = {reinterpret_cast<const Vec3 *>(input.xyz[0].data), points};

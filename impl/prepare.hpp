@@ -20,7 +20,8 @@ struct Original {
         tet_number(&memory),
         flags(&memory),
         used(&memory),
-        left(&memory) {}
+        left(&memory),
+        torn(&memory) {}
   MeshView view;
   Array<Vec3> points;
   Array<double> scalars;  ///< with those of the further fields that steer
@@ -29,9 +30,10 @@ struct Original {
   Array<std::uint8_t> flags;          ///< of each vertex, those of points that became it included; empty: none are set
   Array<std::uint8_t> used;           ///< of each submitted point: a submitted tet has it, and all of it is finite
   Array<std::uint8_t> left;           ///< of each: a tet of the view has it; empty: none was dropped
+  Torn torn;                          ///< parts whose points did not, as a field jumps between them
   std::int64_t merged_points = 0;     ///< coincident points that became one
   bool merging_depends = false;       ///< on whether parts may be in contact
-  bool merging_sees_values = false;   ///< which points became one depends on them
+  bool merging_sees_values = false;   ///< which points became one depends on the values of fields that steer
   std::int64_t nonfinite_points = 0;  ///< without a finite value, ignored with their tets
   std::int64_t dropped_tets = 0;      ///< with such a point, or with a repeated vertex, as submitted or after merging
   std::int64_t divided_tets = 0;      ///< that others take the place of: make_conforming

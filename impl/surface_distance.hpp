@@ -40,10 +40,16 @@ class TriangleTree {
   /// In how much material p is, by the triangles, but for one, on a ray to it: exact. Nothing where it is on one of
   /// them.
   std::optional<int> depth(const Vec3 &p, std::int32_t but = -1) const;
-  /// visit(other) for the triangles whose boxes meet that of t, t among them.
+  /// visit(other) for the triangles whose boxes meet that of t, t among them; stops when it returns true, and says
+  /// whether it did.
+  template <class Visit>
+  bool any_near(std::int32_t t, const Visit &visit) const {
+    return tree_.any_overlap(box_of(points_, triangles_[std::size_t(t)]), visit);
+  }
+  /// visit(other) for all of them.
   template <class Visit>
   void for_near(std::int32_t t, const Visit &visit) const {
-    tree_.any_overlap(box_of(points_, triangles_[std::size_t(t)]), [&](std::int32_t other) {
+    any_near(t, [&](std::int32_t other) {
       visit(other);
       return false;
     });

@@ -23,22 +23,26 @@ class TouchingParts {
         used_(used),
         job_(job),
         representative_(representative),
-        parts_(representative.size(), job.memory),
-        torn_(&job.memory) {}
+        kept_(job.memory),
+        parts_(representative.size(), job.memory) {}
 
   KeptApart keep_apart() {
     join_tets();
     if (any_apart()) {
       NumberedTets tets = tets_by_place();
+      number_parts(tets);
       find_torn(tets);
       const std::int64_t parts = parts_.count();
       join_across_faces(tets);
       const bool are_of_one_mesh = parts_.count() < parts;  // not of an assembly, where some happen to fit
-      if (are_of_one_mesh && any_apart() && can_conform(job_, tets)) join_across_faces(tets);
+      if (are_of_one_mesh && any_apart() && can_conform(job_, tets)) {
+        find_torn(tets);
+        join_across_faces(tets);
+      }
     }
     if (any_apart()) split_places();
     for (std::size_t v = 0; v < representative_.size(); v++) kept_.merged += representative_[v] != std::int32_t(v);
-    return kept_;
+    return std::move(kept_);
   }
 
  private:
@@ -49,8 +53,8 @@ class TouchingParts {
   void join_tets() {
     for (std::size_t t = 0; t < tets_.size(); t++) {
       job_.poll_at(t, 0.9);
-      for (const std::int32_t v : tets_[t])
-        if (has_all(tets_[t])) parts_.join(tets_[t][0], v);
+      if (!has_all(tets_[t])) continue;
+      for (const std::int32_t v : tets_[t]) parts_.join(tets_[t][0], v);
     }
   }
 
@@ -87,31 +91,47 @@ class TouchingParts {
 
   void join_across_faces(const NumberedTets &tets) {
     for_neighbours(tets, [&](const Tet &t, const Tet &u) {
-      if (!std::binary_search(torn_.begin(), torn_.end(), pair_of(t, u))) parts_.join(t[0], u[0]);
+      if (parts_.lowest(t[0]) != parts_.lowest(u[0]) && !would_join_torn(t, u)) parts_.join(t[0], u[0]);
+    });
+  }
+
+  /// Parts between which a field jumps, these or others that are one with them.
+  bool would_join_torn(const Tet &t, const Tet &u) {
+    const Torn &torn = kept_.torn;
+    if (std::binary_search(torn.begin(), torn.end(), pair_of(t, u))) return true;
+    const auto sides = std::minmax({parts_.lowest(t[0]), parts_.lowest(u[0])});
+    return std::any_of(torn.begin(), torn.end(), [&](const auto &pair) {
+      return std::minmax({parts_.lowest(pair.first), parts_.lowest(pair.second)}) == sides;
     });
   }
 
   /// Which parts, as submitted, a field jumps between; but not small ones, as the cells of a method that lets it jump.
   void find_torn(const NumberedTets &tets) {
     constexpr std::int32_t fewest = 64;
-    Array<std::int32_t> count(representative_.size(), 0, &job_.memory);
-    part_.resize(representative_.size());
-    for (std::size_t v = 0; v < part_.size(); v++) part_[v] = parts_.lowest(std::int32_t(v));
-    for (const std::int32_t t : tets.number) count[std::size_t(part(tets_[std::size_t(t)]))]++;
-    const auto is_large = [&](const Tet &t) { return count[std::size_t(part(t))] >= fewest; };
+    const auto is_large = [&](const Tet &t) { return count_[std::size_t(part(t))] >= fewest; };
+    if (std::count_if(count_.begin(), count_.end(), [&](std::int32_t count) { return count >= fewest; }) < 2) return;
     const FieldJumps fields(input_, used_, job_);
+    Torn &torn = kept_.torn;
     for_neighbours(tets, [&](const Tet &t, const Tet &u) {
       if (part(t) == part(u) || !is_large(t) || !is_large(u)) return;
       kept_.sees_values = true;
-      if (is_torn(fields, t, u)) torn_.push_back(pair_of(t, u));
+      if (is_torn(fields, t, u)) torn.push_back(pair_of(t, u));
     });
-    std::sort(torn_.begin(), torn_.end());
-    torn_.erase(std::unique(torn_.begin(), torn_.end()), torn_.end());
+    std::sort(torn.begin(), torn.end());
+    torn.erase(std::unique(torn.begin(), torn.end()), torn.end());
+  }
+
+  /// As they were submitted, and how many tets each has.
+  void number_parts(const NumberedTets &tets) {
+    count_.resize(representative_.size(), 0);
+    part_.resize(representative_.size());
+    for (std::size_t v = 0; v < part_.size(); v++) part_[v] = parts_.lowest(std::int32_t(v));
+    for (const std::int32_t t : tets.number) count_[std::size_t(part(tets_[std::size_t(t)]))]++;
   }
 
   std::int32_t part(const Tet &t) const { return part_[std::size_t(t[0])]; }
   std::pair<std::int32_t, std::int32_t> pair_of(const Tet &t, const Tet &u) const {
-    return std::minmax(std::int32_t(part(t)), std::int32_t(part(u)));
+    return std::minmax({part(t), part(u)});
   }
 
   /// At a place that both have.
@@ -154,9 +174,9 @@ class TouchingParts {
   Job &job_;
   Array<std::int32_t> &representative_;
   KeptApart kept_;
-  DisjointSets parts_;                                 // of the points
-  Array<std::int32_t> part_{&job_.memory};             // of each, before any are joined across faces
-  Array<std::pair<std::int32_t, std::int32_t>> torn_;  // of these, ascending
+  DisjointSets parts_;                       // of the points
+  Array<std::int32_t> part_{&job_.memory};   // of each, as submitted, known by its lowest point
+  Array<std::int32_t> count_{&job_.memory};  // tets of each part
 };
 
 }  // namespace

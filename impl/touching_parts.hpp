@@ -6,7 +6,9 @@
 namespace tetlod {
 
 struct KeptApart {
+  explicit KeptApart(Memory &memory) : torn(&memory) {}
   std::int64_t merged = 0;   ///< points, all the same
+  Torn torn;                 ///< between which a field jumps
   bool sees_values = false;  ///< with others more or fewer might be
 };
 

@@ -5,7 +5,6 @@
 
 #include "lies_on.hpp"
 #include "surface_distance.hpp"
-#include "whole_arrays.hpp"
 
 namespace tetlod {
 
@@ -13,6 +12,8 @@ namespace {
 
 /// Nearer to a corner or an edge, for their length, or a height, vertices are too near to be inside.
 constexpr double least = 1e-3;
+/// Whose boxes meet that of one: more are not looked at.
+constexpr int most_others = 2000;
 
 class VerticesOnTriangles {
  public:
@@ -27,7 +28,10 @@ class VerticesOnTriangles {
     job_.poll(0.9);  // of what is cancelled parts of the tree are missing
     constexpr VertexOnTriangle none{-1, -1, -1};
     Array<VertexOnTriangle> found(triangles_.size(), none, &job_.memory);
-    for_each(triangles_.size(), job_, [&](std::size_t t) { found[t] = middlemost_on(std::int32_t(t)); });
+    job_.parallel.for_blocks(found.size(), 64, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t t = begin; t < end; t++) found[t] = middlemost_on(std::int32_t(t));
+      job_.poll(0.9);
+    });
     const auto is_none = [](const VertexOnTriangle &on) { return on.vertex < 0; };
     found.erase(std::remove_if(found.begin(), found.end(), is_none), found.end());
     return found;
@@ -48,9 +52,10 @@ class VerticesOnTriangles {
     VertexOnTriangle middlemost{-1, t, -1};
     double most = least;
     bool has_common_corner = false;
-    tree_.for_near(t, [&](std::int32_t other) {
+    int looked_at = 0;
+    tree_.any_near(t, [&](std::int32_t other) {
       const Triangle &corners = triangles_[std::size_t(other)];
-      if (!are_back_to_back(outward, normal(corners))) return;
+      if (!are_back_to_back(outward, normal(corners))) return ++looked_at > most_others;
       for (const std::int32_t v : corners) {
         if (has(triangle, v)) {
           has_common_corner = true;
@@ -63,6 +68,7 @@ class VerticesOnTriangles {
         middlemost = {v, t, place.opposite};
         most = place.to_rim;
       }
+      return ++looked_at > most_others;
     });
     return has_common_corner ? middlemost : VertexOnTriangle{-1, t, -1};
   }

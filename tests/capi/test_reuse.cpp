@@ -275,7 +275,6 @@ TEST_F(Reuse, ValuesThatAreNone) {
   EXPECT_EQ(expect_fresh_bytes().reused_tets, tets());
 }
 
-/// Values, points and tets that have to be copied.
 /// Two halves with points of their own in the middle are one while no field jumps there.
 TEST_F(Reuse, ValuesThatTear) {
   const std::size_t points = cube.values.size();
@@ -299,9 +298,18 @@ TEST_F(Reuse, ValuesThatTear) {
     new_values(0);
     for (std::size_t v = points; v < cube.values.size(); v++) cube.values[v] += jump;
     EXPECT_EQ(expect_fresh_bytes().components, jump > 0 ? 2 : 1) << jump;
+    const tetlod_run_report again = expect_fresh_bytes();
+    EXPECT_EQ(again.reused_tets, tets()) << "of the same values";
   }
+  for (std::size_t v = points; v < cube.values.size(); v++) cube.values[v] += 1;
+  submit(context.get(), cube);
+  std::vector<double> out(3 * std::size_t(report_of(context.get()).points_out));
+  const tetlod_array from = array_of(TETLOD_FLOAT64, cube.values.size(), 3, cube.xyz.data());
+  tetlod_array to = array_of(TETLOD_FLOAT64, out.size() / 3, 3, out.data());
+  EXPECT_EQ(tetlod_transfer(context.get(), &from, &to), TETLOD_ERR_STATE) << "other points are one now";
 }
 
+/// Values, points and tets that have to be copied.
 TEST_F(Reuse, OtherLayouts) {
   const std::size_t points = cube.values.size();
   std::vector<float> values(cube.values.begin(), cube.values.end());

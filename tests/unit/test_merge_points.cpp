@@ -103,5 +103,34 @@ TEST_F(MergePoints, AgainstBruteForce) {
     }
 }
 
+/// Others have no cells of their own then, by the largest coordinate; nor beside so large a rounding.
+TEST_F(MergePoints, OneMayBeFarAway) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  for (int i = 0; i < 200000; i++) points.push_back(Vec3(uniform(random), uniform(random), uniform(random)));
+  points.push_back(points[17]);
+  points.push_back(Vec3(1e12));
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_EQ(merge(0), 1);
+  EXPECT_EQ(merge_rounded({points.data(), points.size()}, {used.data(), used.size()}, 1e-3, host.job, representative),
+            -1);
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(), 2);
+}
+
+TEST_F(MergePoints, Rounded) {
+  std::mt19937_64 random(8);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (int i = 0; i < 3000; i++) points.push_back(Vec3(uniform(random), uniform(random), uniform(random)));
+  for (int i = 0; i < 2000; i++) {
+    const Vec3 off(uniform(random), uniform(random), uniform(random));
+    points.push_back(points[random() % points.size()] + 1e-12 * off);
+  }
+  used.assign(points.size(), 1);
+  const auto merged =
+      merge_rounded({points.data(), points.size()}, {used.data(), used.size()}, 1e-12, host.job, representative);
+  EXPECT_GT(merged, 0);
+  expect(brute_force(1e-12));
+}
+
 }  // namespace
 }  // namespace tetlod

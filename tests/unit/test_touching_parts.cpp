@@ -1,6 +1,7 @@
 // Of points at one place those of parts that only touch stay apart.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -224,6 +225,35 @@ TEST_F(TouchingParts, StayApartWhereAFieldJumps) {
     EXPECT_EQ(merge(), 16 + 16);
     mesh.scalars[torn] -= jump;
     EXPECT_EQ(merge(), jump > 0.01 ? 16 : 32) << jump;
+  }
+}
+
+/// Of two by two, between the first and the second, and between no others.
+TEST_F(TouchingParts, StayApartThoughOthersTieThem) {
+  for (const Vec3 &corner : {Vec3(0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0)}) add_cube(3, corner);
+  std::set<std::array<double, 3>> places;
+  for (const Vec3 &p : mesh.points) places.insert({p.x, p.y, p.z});
+  const auto all = std::int64_t(mesh.points.size() - places.size());
+  EXPECT_EQ(merge(), all);
+  for (std::size_t v = 64; v < 128; v++) mesh.scalars[v] = std::max(0.0, 0.5 - mesh.points[v].y);
+  EXPECT_LT(merge(), all);
+  const auto at = [&](std::size_t first, const Vec3 &p) {
+    while (mesh.points[first] != p) first++;
+    return representative[first];
+  };
+  EXPECT_NE(at(0, Vec3(1, 0, 0)), at(64, Vec3(1, 0, 0)));
+}
+
+/// Their faces fit only after some are divided.
+TEST_F(TouchingParts, OfOtherLevelsStayApartWhereAFieldJumps) {
+  for (const double jump : {0.0, 1.0}) {
+    mesh = Mesh();
+    add_cube(4, Vec3(0));
+    add_cube(4, Vec3(0, 1, 0));
+    const std::size_t first = mesh.points.size();
+    add_cube(8, Vec3(1, 0, 0));
+    for (std::size_t v = 0; v < mesh.points.size(); v++) mesh.scalars[v] = mesh.points[v].z + (v < first ? 0 : jump);
+    EXPECT_EQ(merge(), jump > 0 ? 25 : 25 + 25);
   }
 }
 
