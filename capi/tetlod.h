@@ -418,7 +418,7 @@ TETLOD_API tetlod_status tetlod_estimate_memory(tetlod_context *context, uint64_
  *
  * A run takes over from earlier ones of its context, with its own bytes but where TETLOD_OPT_WARM_START allows others,
  *   the checks of the mesh, its boundary and how that hangs together, while points, tets, point flags, merge tolerance
- *   and policies are the same and all values are finite;
+ *   and policies are the same, all values are finite, and, with parts that a field may jump between, the same;
  *   the boundary's decimation, if lambda, clean-edges and max-deviation are the same as well, to a sigma that is not
  *   smaller; with a target ratio or a bound its cost sees the field: then only for the same values;
  *   where edges of the solid collapse (TETLOD_OPT_EFFORT) and the values, their weights and the flags are the same, and

@@ -25,27 +25,25 @@ class ClosingQuads {
   void close(NumberedTets &solid) {
     bool are_alike = false;
     for (int round = 0; round < most_rounds; round++) {
-      bool any = add_flat_tets(crossed_quads(are_alike));
+      const TriangleCorners corners(mesh_.view().points.size(), triangles_, job_);
+      bool any = add_flat_tets(crossed_quads(corners, are_alike));
       are_alike = are_alike || !any;
-      any = any || add_flat_tets(slanted_quads());
+      any = any || add_flat_tets(find_slanted_quads(mesh_.view(), corners, tet_of_, job_));
       if (!any) break;
       mesh_.give_way();
-      mesh_.find_boundary(triangles_, tet_of_);
+      mesh_.find_outward_boundary(triangles_, tet_of_);
     }
     mesh_.settle();
     mesh_.give(solid);
   }
 
  private:
-  TriangleCorners corners() const { return {mesh_.view().points.size(), triangles_, job_}; }
-
-  Array<CrossedQuad> crossed_quads(bool closed_only) const {
-    Array<CrossedQuad> quads = find_crossed_quads(mesh_.view(), corners(), tet_of_, job_);
+  Array<CrossedQuad> crossed_quads(const TriangleCorners &corners, bool closed_only) const {
+    Array<CrossedQuad> quads = find_crossed_quads(mesh_.view(), corners, tet_of_, job_);
     const auto goes = [&](const CrossedQuad &quad) { return closed_only && !quad.is_closed(); };
     quads.erase(std::remove_if(quads.begin(), quads.end(), goes), quads.end());
     return quads;
   }
-  Array<CrossedQuad> slanted_quads() const { return find_slanted_quads(mesh_.view(), corners(), tet_of_, job_); }
 
   /// Whether some are.
   bool add_flat_tets(Span<const CrossedQuad> quads) {

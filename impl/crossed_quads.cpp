@@ -121,7 +121,7 @@ class CrossedQuads {
     return true;
   }
 
-  int side_of(const Tet &t) const { return orientation(at(t[0]), at(t[1]), at(t[2]), at(t[3])); }
+  int side_of(const Tet &t) const { return orientation(mesh_.points, t); }
 
   /// The diagonal of the first two: the quad is plane, and convex.
   bool may_turn(const CrossedQuad &quad) const {

@@ -10,11 +10,6 @@ namespace tetlod {
 
 namespace {
 
-int side_of(Span<const Vec3> points, const Tet &t) {
-  const auto at = [&](std::size_t k) { return points[std::size_t(t[k])]; };
-  return orientation(at(0), at(1), at(2), at(3));
-}
-
 Tet with(Tet tet, std::int32_t gone, std::int32_t instead) {
   std::replace(tet.begin(), tet.end(), gone, instead);
   return tet;
@@ -46,10 +41,10 @@ class EdgeDivision {
     job_.poll(0.9);
     Array<std::int32_t> at_edge(&job_.memory);
     for (const std::int32_t t : lists_[std::size_t(list_of_[std::size_t(h.from)])])
-      if (has(t, h.from) && has(t, h.to)) at_edge.push_back(t);
+      if (has(tets_[std::size_t(t)], h.from) && has(tets_[std::size_t(t)], h.to)) at_edge.push_back(t);
+    // One that has lost the vertex and got it again is there twice.
     std::sort(at_edge.begin(), at_edge.end());
-    at_edge.erase(std::unique(at_edge.begin(), at_edge.end()),
-                  at_edge.end());  // one may have lost the vertex meanwhile
+    at_edge.erase(std::unique(at_edge.begin(), at_edge.end()), at_edge.end());
     if (at_edge.empty() ||
         !std::all_of(at_edge.begin(), at_edge.end(), [&](std::int32_t t) { return may_divide(t, h); }))
       return false;
@@ -65,11 +60,6 @@ class EdgeDivision {
   }
 
  private:
-  bool has(std::int32_t t, std::int32_t v) const {
-    const Tet &tet = tets_[std::size_t(t)];
-    return std::find(tet.begin(), tet.end(), v) != tet.end();
-  }
-
   void enter(std::size_t t) {
     for (const std::int32_t v : tets_[t]) add(v, std::int32_t(t));
   }
@@ -81,9 +71,9 @@ class EdgeDivision {
 
   bool may_divide(std::int32_t t, const HangingVertex &h) const {
     const Tet &tet = tets_[std::size_t(t)];
-    const int side = side_of(points_, tet);
-    return !has(t, h.vertex) && side_of(points_, with(tet, h.from, h.vertex)) == side &&
-           side_of(points_, with(tet, h.to, h.vertex)) == side;
+    const int side = orientation(points_, tet);
+    return !has(tet, h.vertex) && orientation(points_, with(tet, h.from, h.vertex)) == side &&
+           orientation(points_, with(tet, h.to, h.vertex)) == side;
   }
 
   Span<const Vec3> points_;
@@ -106,7 +96,7 @@ bool divide_edges(Span<const HangingVertex> hanging, Job &job, NumberedTets &tet
 bool divide_face(const Triangle &face, std::int32_t vertex, std::int32_t t, NumberedTets &tets) {
   const Tet whole = tets.tets[std::size_t(t)];
   for (const std::int32_t corner : face)
-    if (side_of(tets.points, with(whole, corner, vertex)) != side_of(tets.points, whole)) return false;
+    if (orientation(tets.points, with(whole, corner, vertex)) != orientation(tets.points, whole)) return false;
   tets.tets[std::size_t(t)] = with(whole, face[0], vertex);
   for (const std::int32_t corner : {face[1], face[2]}) {
     tets.tets.push_back(with(whole, corner, vertex));
@@ -120,6 +110,7 @@ bool divide_faces(Span<const VertexOnTriangle> inside, Job &job, NumberedTets &t
   Array<std::uint8_t> is_divided(tets.tets.size(), 0, &job.memory);
   bool any = false;
   for (const VertexOnTriangle &on : inside) {
+    job.poll(0.9);
     const std::int32_t t = tets.boundary.tet_of[std::size_t(on.triangle)];
     if (is_divided[std::size_t(t)]) continue;
     is_divided[std::size_t(t)] = divide_face(tets.boundary.triangles[std::size_t(on.triangle)], on.vertex, t, tets);

@@ -14,11 +14,6 @@ namespace {
 /// Their sides are numbered with 32 bits.
 constexpr std::size_t most_triangles = (std::size_t(1) << 31) / 3 - 1;
 
-int tet_sign(const MeshView &mesh, const Tet &t) {
-  return orientation(mesh.points[std::size_t(t[0])], mesh.points[std::size_t(t[1])], mesh.points[std::size_t(t[2])],
-                     mesh.points[std::size_t(t[3])]);
-}
-
 Triangle outward_face(const Tet &t, int k, int sign) {
   Triangle face{t[std::size_t(tet_face[k][0])], t[std::size_t(tet_face[k][1])], t[std::size_t(tet_face[k][2])]};
   if (sign < 0) std::swap(face[1], face[2]);
@@ -41,7 +36,7 @@ std::int32_t opposite(const MeshView &mesh, const FaceUse &f) { return mesh.tets
 
 void add_boundary_face(const MeshView &mesh, const FaceUse &f, Found &found) {
   const Tet &t = mesh.tets[f.tet()];
-  const int sign = tet_sign(mesh, t);
+  const int sign = orientation(mesh.points, t);
   if (sign == 0) {
     found.flat.push_back(std::int32_t(f.tet()));
     return;

@@ -53,7 +53,7 @@ void FlatTets::add(const Tet &tet, std::int32_t beside) {
 }
 
 void FlatTets::give_way() {
-  connect(job_);
+  find_neighbours(job_);
   while (drop_if([&](const FlatTet &flat) { return gives_way(flat); })) {
   }
   drop_free_slots();
@@ -61,7 +61,7 @@ void FlatTets::give_way() {
 
 void FlatTets::settle() {
   if (flat_.empty()) return;
-  connect(job_);
+  find_neighbours(job_);
   const auto goes = [&](const FlatTet &flat) { return gives_way(flat); };
   const auto goes_after = [&](const FlatTet &flat) { return gives_way_after_another(flat); };
   while (drop_if(goes) || drop_if(goes_after)) {
@@ -70,7 +70,7 @@ void FlatTets::settle() {
   drop_free_slots();
 }
 
-void FlatTets::find_boundary(Array<Triangle> &triangles, Array<std::int32_t> &tet_of_triangle) const {
+void FlatTets::find_outward_boundary(Array<Triangle> &triangles, Array<std::int32_t> &tet_of_triangle) const {
   triangles.clear();
   tet_of_triangle.clear();
   for (std::size_t t = 0; t < tets.size(); t++) {
@@ -101,8 +101,7 @@ void FlatTets::give(NumberedTets &solid) {
 void FlatTets::turn_upright() {
   for (std::size_t t = 0; t < tets.size(); t++) {
     job_.poll_at(t, 0.9);
-    const auto at = [&](std::size_t k) { return points[std::size_t(tets[t][k])]; };
-    if (orientation(at(0), at(1), at(2), at(3)) < 0) std::swap(tets[t][2], tets[t][3]);
+    if (orientation(points, tets[t]) < 0) std::swap(tets[t][2], tets[t][3]);
   }
 }
 

@@ -21,8 +21,8 @@ class FlatTets : private TetComplex {
   /// Those that are left may once tets around an edge nearby have. Those left at the boundary then go.
   void settle();
 
-  /// After either: the triangles of the boundary, and whose they are.
-  void find_boundary(Array<Triangle> &triangles, Array<std::int32_t> &tet_of) const;
+  /// After either: the triangles of the boundary, seen from outside, and whose they are.
+  void find_outward_boundary(Array<Triangle> &triangles, Array<std::int32_t> &tet_of) const;
   /// Faces of theirs inside of the mesh, ascending.
   Array<Triangle> inner_faces() const;
   void give(NumberedTets &solid);

@@ -11,7 +11,7 @@ namespace {
 class HangingVertices {
  public:
   HangingVertices(const MeshView &mesh, const TriangleCorners &corners, Job &job)
-      : mesh_(mesh), corners_(corners), job_(job), rounding_(rounding_of(mesh.points, corners.triangles())) {}
+      : mesh_(mesh), corners_(corners), job_(job), rounding_(single_rounding_of(mesh.points, corners.triangles())) {}
 
   /// Those with an edge to an end of theirs.
   Array<HangingVertex> find() const {

@@ -8,8 +8,8 @@
 
 namespace tetlod {
 
-/// Of the corners of the triangles: coordinates may be of single precision.
-inline double rounding_of(Span<const Vec3> points, Span<const Triangle> triangles) {
+/// Of the corners of the triangles, whose coordinates may be of single precision.
+inline double single_rounding_of(Span<const Vec3> points, Span<const Triangle> triangles) {
   double largest = 0;
   for (const Triangle &t : triangles)
     for (const std::int32_t v : t)

@@ -79,10 +79,10 @@ std::int32_t find_near(const PointTable &table, Span<const Vec3> points, std::in
   return found;
 }
 
-/// found(v): the lowest point that v is merged into; key(v): in the table.
-template <class Found, class Key>
+/// find(v): the lowest point that v is merged into; key(v): in the table.
+template <class Find, class Key>
 std::int64_t merge(PointTable &table, Span<const std::uint8_t> used, Job &job, Array<std::int32_t> &representative,
-                   const Found &find, const Key &key) {
+                   const Find &find, const Key &key) {
   std::int64_t merged = 0;
   representative.resize(used.size());
   for (std::size_t i = 0; i < used.size(); i++) {

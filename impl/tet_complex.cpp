@@ -14,13 +14,12 @@ Triangle sorted_face(const Tet &t, int k) {
   return f;
 }
 
-void TetComplex::connect(Job &job) {
+void TetComplex::find_neighbours(Job &job) {
   neighbours.assign(tets.size(), Tet{-1, -1, -1, -1});
   free_.clear();
   job.poll(0.1);
   touched_.assign(tets.size(), 0);
   tet_of.assign(points.size(), -1);
-  fixed.assign(points.size(), 0);
   const MeshView view{points, {}, tets};
   FaceSweep(view, {}, job).visit([&](std::size_t, std::int32_t, const FaceUse *first, const FaceUse *last) {
     if (last - first != 2) return;
@@ -29,11 +28,18 @@ void TetComplex::connect(Job &job) {
   });
   for (std::size_t t = 0; t < tets.size(); t++) {
     job.poll_at(t, 0.1);
-    for (std::size_t k = 0; k < 4; k++) {
-      tet_of[std::size_t(tets[t][k])] = std::int32_t(t);
-      if (neighbours[t][k] >= 0) continue;
-      for (int corner : tet_face[k]) fixed[std::size_t(tets[t][std::size_t(corner)])] = 1;
-    }
+    for (const std::int32_t v : tets[t]) tet_of[std::size_t(v)] = std::int32_t(t);
+  }
+}
+
+void TetComplex::connect(Job &job) {
+  find_neighbours(job);
+  fixed.assign(points.size(), 0);
+  for (std::size_t t = 0; t < tets.size(); t++) {
+    job.poll_at(t, 0.1);
+    for (std::size_t k = 0; k < 4; k++)
+      if (neighbours[t][k] < 0)
+        for (int corner : tet_face[k]) fixed[std::size_t(tets[t][std::size_t(corner)])] = 1;
   }
   find_touching(job);
 }

@@ -41,7 +41,9 @@ class TetComplex {
   Array<std::int32_t> tet_of;                   ///< one of the tets of each vertex
   Array<std::int32_t> solid;                    ///< of the original's, of the first vertices; -1: not known
 
-  /// Finds the neighbours of `tets`, which has no free slot.
+  /// Of `tets`, which has no free slot, with a tet of each vertex.
+  void find_neighbours(Job &job);
+  /// These, and which vertices are fixed.
   void connect(Job &job);
 
   /// The faces of the boundary, the vertices of each ascending, and the tet that each has.

@@ -135,15 +135,10 @@ class Inspector {
     number_.resize(kept);
   }
 
-  int side(const Tet &t) const {
-    return orientation(points_[std::size_t(t[0])], points_[std::size_t(t[1])], points_[std::size_t(t[2])],
-                       points_[std::size_t(t[3])]);
-  }
-
   void look_at_tets() {
     for (std::size_t i = 0; i < tets_.size(); i++) {
       job_.poll_at(i, 0.5);
-      const int sign = side(tets_[i]);
+      const int sign = orientation(points_, tets_[i]);
       if (sign == 0) found_.flat.add(std::int64_t(number_[i]) + base_);
       if (sign < 0) found_.inverted.add(std::int64_t(number_[i]) + base_);
     }

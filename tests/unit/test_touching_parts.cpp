@@ -33,6 +33,22 @@ class TouchingParts : public testing::Test {
     append(mesh, cube);
   }
 
+  /// Five of several cells, one of which has that many a side.
+  void add_blocks(int n) {
+    add_cube(4, Vec3(0, 0, 1));
+    add_cube(2, Vec3(0, 1, 0));
+    add_cube(4, Vec3(0, 1, 1), true);
+    add_cube(n, Vec3(1, 0, 0));
+    add_cube(4, Vec3(1, 1, 0));
+  }
+
+  /// Points that are at the place of another.
+  std::int64_t coincident() const {
+    std::set<std::array<double, 3>> places;
+    for (const Vec3 &p : mesh.points) places.insert({p.x, p.y, p.z});
+    return std::int64_t(mesh.points.size() - places.size());
+  }
+
   std::int64_t merge_all() {
     used.resize(mesh.points.size(), 1);
     return merge_points(mesh.view().points, {used.data(), used.size()}, 0, host.job, representative);
@@ -134,23 +150,13 @@ TEST_F(TouchingParts, OfAMeshAreOneWhereItConformsAfterwards) {
 /// Faces of the first and the third are the same, or cut the other way, others are finer or coarser by up to two
 /// levels.
 TEST_F(TouchingParts, OfAMeshAreOneWhereLevelsAreLeftOut) {
-  add_cube(4, Vec3(0, 0, 1));
-  add_cube(2, Vec3(0, 1, 0));
-  add_cube(4, Vec3(0, 1, 1), true);
-  add_cube(8, Vec3(1, 0, 0));
-  add_cube(4, Vec3(1, 1, 0));
-  std::set<std::array<double, 3>> places;
-  for (const Vec3 &p : mesh.points) places.insert({p.x, p.y, p.z});
-  EXPECT_EQ(merge(), std::int64_t(mesh.points.size() - places.size()));
+  add_blocks(8);
+  EXPECT_EQ(merge(), coincident());
 }
 
 /// Others would fit; but one does not, and slits would be left.
 TEST_F(TouchingParts, StayApartWhereNotAllConforms) {
-  add_cube(4, Vec3(0, 0, 1));
-  add_cube(2, Vec3(0, 1, 0));
-  add_cube(4, Vec3(0, 1, 1), true);
-  add_cube(5, Vec3(1, 0, 0));
-  add_cube(4, Vec3(1, 1, 0));
+  add_blocks(5);
   EXPECT_EQ(merge(), 25) << "of the first and the third";
 }
 
@@ -231,12 +237,9 @@ TEST_F(TouchingParts, StayApartWhereAFieldJumps) {
 /// Of two by two, between the first and the second, and between no others.
 TEST_F(TouchingParts, StayApartThoughOthersTieThem) {
   for (const Vec3 &corner : {Vec3(0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0)}) add_cube(3, corner);
-  std::set<std::array<double, 3>> places;
-  for (const Vec3 &p : mesh.points) places.insert({p.x, p.y, p.z});
-  const auto all = std::int64_t(mesh.points.size() - places.size());
-  EXPECT_EQ(merge(), all);
+  EXPECT_EQ(merge(), coincident());
   for (std::size_t v = 64; v < 128; v++) mesh.scalars[v] = std::max(0.0, 0.5 - mesh.points[v].y);
-  EXPECT_LT(merge(), all);
+  EXPECT_LT(merge(), coincident());
   const auto at = [&](std::size_t first, const Vec3 &p) {
     while (mesh.points[first] != p) first++;
     return representative[first];
