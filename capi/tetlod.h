@@ -136,7 +136,7 @@ typedef struct tetlod_run_report {
   int32_t threads;
   /* the original */
   int64_t points_in, tets_in;
-  int64_t merged_points;    /* coincident points that became one */
+  int64_t merged_points;    /* coincident points that became one; the middle of their values counts */
   int64_t nonfinite_points; /* without a finite value, ignored with their tets (TETLOD_OPT_ON_NONFINITE) */
   int64_t dropped_tets;     /* with such a point, with a vertex twice (as submitted or after merging), duplicates, and
                                tets of the boundary without volume */
@@ -164,8 +164,8 @@ typedef struct tetlod_run_report {
   double scalar_min, scalar_max; /* of the original's values */
   int64_t inserted_points;       /* inside, after the remeshing (TETLOD_OPT_TARGET_RATIO) */
   double max_error;     /* with TETLOD_OPT_TARGET_RATIO or _MAX_ERROR: largest error at the original vertices, over the
-                           range, of any field that steers; those outside the result count with
-                           TETLOD_OPT_MAX_ERROR alone */
+                           range, of any field that steers, and of each point where several became one, or a little
+                           more; those outside the result count with TETLOD_OPT_MAX_ERROR alone */
   double max_deviation; /* largest distance of a boundary vertex, of the original or the result, from the other's
                            boundary, over the diagonal; with TETLOD_OPT_MAX_DEVIATION, of what that is measured at */
   int64_t reused_tets;  /* taken over from earlier runs, see tetlod_run: tets_in where the boundary was, else 0 */

@@ -266,7 +266,7 @@ void check_result(const Mesh &mesh, const Facts &facts, const Fetched &result, b
     check_components(result.points, result.boundary);
   else
     check_surface(result.points, result.boundary);
-  check_values(result.values, facts.low, facts.high);
+  check_values(result.values, facts.values.low, facts.values.high);
   check_same_topology(facts.boundary, result.boundary);
   if (crossing_of(mesh.points, facts.boundary).first < 0)
     check_same_cut_topology(mesh.points, facts.boundary, result.points, result.boundary);

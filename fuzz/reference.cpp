@@ -67,6 +67,7 @@ class Inspection {
 
  private:
   const Point &at(std::int64_t v) const { return mesh_.points[std::size_t(v)]; }
+  double value_of(std::int64_t v) const { return mesh_.values[std::size_t(v)]; }
   int side_of(const Corners &t) const { return side(at(t[0]), at(t[1]), at(t[2]), at(t[3])); }
 
   void look_at_indices() {
@@ -96,15 +97,10 @@ class Inspection {
   }
 
   void look_at_values() {
-    facts_.low = std::numeric_limits<double>::infinity();
-    facts_.high = -facts_.low;
     for (const Corners &tet : facts_.nonmanifold_faces == 0 ? facts_.tets : tets_)
-      for (const std::int64_t v : tet) {
-        const double value = mesh_.values[std::size_t(v)];
-        if (!std::isfinite(value)) continue;
-        facts_.low = std::min(facts_.low, value);
-        facts_.high = std::max(facts_.high, value);
-      }
+      for (const std::int64_t v : tet) facts_.values.add(value_of(v));
+    for (std::size_t v = 0; v < used_.size(); v++)
+      if (used_[v]) facts_.values_used.add(value_of(std::int64_t(v)));
   }
 
   /// Two used points that are not equal.
@@ -153,6 +149,8 @@ class Inspection {
       if (!used_[v]) continue;
       renamed[v] = first.emplace(std::pair(place(std::int64_t(v)), part[v]), std::int64_t(v)).first->second;
       facts_.coincident += renamed[v] != std::int64_t(v);
+      for (const std::int64_t of : {renamed[v], std::int64_t(v)})
+        if (value_of(renamed[v]) != value_of(std::int64_t(v))) facts_.values.add(value_of(of));
     }
     for (Corners &tet : tets_)
       for (std::int64_t &v : tet) v = renamed[std::size_t(v)];

@@ -1,8 +1,11 @@
 // What a mesh is, found out again by brute force: its defects, its boundary, the topology of that. Slow, and shares
 // nothing with the library but the exact sign of a determinant.
 #pragma once
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "meshes.hpp"
@@ -10,6 +13,15 @@
 namespace fuzz {
 
 using Face = std::array<std::int64_t, 3>;
+
+struct Interval {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  void add(double value) {
+    if (!std::isfinite(value)) return;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+};
 
 /// Counts of defects, named as in tetlod_mesh_report.
 struct Facts {
@@ -19,7 +31,8 @@ struct Facts {
   // After the repairs that are the default; empty where nothing can be repaired.
   std::vector<Corners> tets;   ///< merged, without those that are dropped, given twice, or peeled off as flat
   std::vector<Face> boundary;  ///< outward, in the numbers of the mesh
-  double low = 0, high = 0;    ///< of the values of the points that tets have which are not dropped
+  Interval values;             ///< of the points that tets have which are not dropped, and of merged ones that differ
+  Interval values_used;        ///< of all that tets have
   /// The sizes of coordinates differ by more than 1e90: products of three leave the range of doubles, and what is flat
   /// cannot be told. Or points differ by no more than rounding, for which they are at one place.
   bool wide = false;

@@ -145,7 +145,7 @@ void Session::accept(const Mesh &mesh, const Facts &facts) {
     check_positive(last_->points, last_->tets);
     check_conforming(last_->tets, last_->boundary);
     takes_contacts() ? check_components(last_->points, last_->boundary) : check_surface(last_->points, last_->boundary);
-    check_values(last_->values, facts.low, facts.high);
+    check_values(last_->values, facts.values_used.low, facts.values_used.high);
   }
   tetlod_run_report report{};
   report.struct_size = sizeof report;
@@ -221,7 +221,8 @@ void Session::check_report(const Mesh &mesh, const Facts &facts) const {
              report.points_out);
   same_count("samples", report.selected_samples - report.samples_outside - report.samples_too_near >= report.samples,
              1);
-  DEMAND(report.scalar_min == facts.low && report.scalar_max == facts.high, "the report has the range of the values");
+  DEMAND(report.scalar_min == facts.values.low && report.scalar_max == facts.values.high,
+         "the report has the range of the values");
   if (option(TETLOD_OPT_TARGET_RATIO) > 0 || option(TETLOD_OPT_MAX_ERROR) > 0) return;  // vertices have moved
   std::vector<std::pair<Point, double>> original;
   for (std::size_t v = 0; v < mesh.points.size(); v++) original.emplace_back(mesh.points[v], mesh.values[v]);

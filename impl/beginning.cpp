@@ -13,6 +13,7 @@ void Beginning::begin() {
   prepare();
   extract();
   if (original_.unequal_field > 0) tell_unequal_fields();
+  if (bound() < 0) refuse_spread();
   budget_.sigma = options_.sigma;
   if (as_published(options_)) return sample();
   report_.least_change = least_change(original_.view);
@@ -25,6 +26,25 @@ void Beginning::tell_unequal_fields() const {
                                   number(original_.scalar_max - original_.scalar_min).c_str());
   if (options_.max_error > 0) throw Error(Status::max_error, "max-error cannot be held for " + fields);
   if (job_.log) job_.log(2, ("the smaller one does not steer: " + fields).c_str());
+}
+
+double Beginning::bound() const {
+  constexpr double rounding = 1e-12;  // of sums, beside the bound
+  const double whole = options_.max_error * original_.range;
+  if (options_.max_error <= 0 || original_.spread_error == 0) return whole;
+  const double rest = (1 - rounding) * whole - original_.spread_error;
+  return rest > 0 ? rest : -whole;
+}
+
+/// Whatever a vertex has there, one of them is off by half of that.
+void Beginning::refuse_spread() const {
+  const Spread &worst = original_.spread[original_.widest];
+  const auto number_of = [&](std::int32_t v) { return static_cast<long long>(v) + input_.index_base; };
+  const std::string &name = input_.name_of_steering(original_.widest);
+  fail(Status::max_error,
+       "max-error %s cannot be held: vertices %lld and %lld are one, and their values%s%.100s differ by %s",
+       number(options_.max_error).c_str(), number_of(worst.lowest), number_of(worst.highest),
+       name.empty() ? "" : " of field ", name.c_str(), number(2 * worst.half).c_str());
 }
 
 void Beginning::prepare() {

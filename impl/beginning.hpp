@@ -14,6 +14,8 @@ class Beginning {
   void begin();
 
  protected:
+  /// Of the error at merged points' middles; 0: none. Where merged points alone are farther off, below 0.
+  double bound() const;
   void sample();
   void select();
 
@@ -37,6 +39,7 @@ class Beginning {
 
  private:
   void tell_unequal_fields() const;
+  void refuse_spread() const;
   void prepare();
   void extract();
 };

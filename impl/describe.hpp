@@ -16,7 +16,7 @@ namespace tetlod {
 inline void describe_input(const Input &input, const Original &original, Report &report) {
   report.points_in = input.xyz[0].tuples;
   report.tets_in = input.tets.tuples;
-  report.merged_points = original.merged_points;
+  report.merged_points = std::int64_t(original.merged.size());
   report.nonfinite_points = original.nonfinite_points;
   report.dropped_tets = original.dropped_tets;
   report.divided_tets = original.divided_tets;
@@ -98,7 +98,8 @@ inline void describe_refinement(const RefineReport &refined, const Original &ori
   describe_insertions(refined.inserted_on_boundary, report);
   // What is constant stays so; and no value leaves its field's range, whatever rounding makes of ranges that are no
   // doubles, or far apart.
-  report.max_error = original.range > 0 ? std::min(refined.max_error / original.range, 1.0) : 0;
+  const double error = refined.max_error + original.spread_error;
+  report.max_error = original.range > 0 ? std::min(error / original.range, 1.0) : 0;
 }
 
 }  // namespace tetlod

@@ -114,12 +114,14 @@ void add_sample(const MeshView &mesh, std::size_t tet, std::uint64_t key, const 
   tally.add(field, p, solid, value_in(mesh.scalars, mesh.fields, mesh.tets[tet], weights), unit);
 }
 
+double unit_of(double range) { return range > 0 ? std::min(range, std::numeric_limits<double>::max()) : 1; }
+
 }  // namespace
 
 FieldError measure_error(const MeshView &original, double range, const TetMesh &result, int samples_per_tet,
                          std::uint64_t seed, Job &job) {
   const Field field(result, job);
-  const double unit = range > 0 ? std::min(range, std::numeric_limits<double>::max()) : 1;
+  const double unit = unit_of(range);
   Array<std::uint8_t> room(&job.memory);
   const Span<const std::uint8_t> used = used_points(original, job, room);
   const Tally at_vertices = tally_blocks(original.points.size(), job, 0, [&](std::size_t v, Tally &tally) {
@@ -147,9 +149,11 @@ FieldError measure_error(const Input &input, const Options &options, const TetMe
   Array<std::int32_t> solid(&job.memory);
   if (!result.solid.empty()) solid = solids_of_vertices(original.view, job);
   original.view.solid = solid;
+  const double range = original.scalar_max - original.scalar_min;
   const auto measure = [&](const TetMesh &mesh) {
-    return measure_error(original.view, original.scalar_max - original.scalar_min, mesh, samples_per_tet,
-                         std::uint64_t(options.seed), job);
+    FieldError error = measure_error(original.view, range, mesh, samples_per_tet, std::uint64_t(options.seed), job);
+    error.max += original.spread[0].half / unit_of(range);
+    return error;
   };
   if (original.exponent == 0) return measure(result);
   TetMesh scaled(job.memory);

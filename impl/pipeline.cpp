@@ -258,7 +258,6 @@ class Pipeline : private Remeshing {
   void refine(bool collapsed) {
     const StageTimer timer(Stage::values, job_, report_);
     make_room_to_refine();
-    const double bound = options_.max_error * original_.range;
     const bool is_original = collapsed && is_the_original(mesh_, origin_, report_);
     Array<std::uint8_t> kept = kept_.flags_of(origin_, job_.memory);
     if (is_original) kept.assign(mesh_.points.size(), keep_vertex);
@@ -268,7 +267,7 @@ class Pipeline : private Remeshing {
     options.steiner = report_.steiner_points;
     options.follows_field = !is_original && (!collapsed || options_.effort == effort_accurate);
     options.rounds = rounds_of(options_, report_);
-    options.bound = bound;
+    options.bound = bound();
     options.kept = kept;
     options.boundary = &tree();
     options.max_deviation = deviation_limit();
@@ -277,7 +276,7 @@ class Pipeline : private Remeshing {
     if (collapsed && in_contact_) original.solid = prepared_.solids(job_);
     mesh_.solid = solids_of_points(original.solid);
     // A bound is looked for all the same: the sides of a slit may be nearer than weights are rounded by.
-    if (bound > 0 || !is_original) refined = tetlod::refine(original, options, job_, mesh_);
+    if (options.bound > 0 || !is_original) refined = tetlod::refine(original, options, job_, mesh_);
     describe_refinement(refined, original_, report_);
     if (options_.max_deviation > 0 && refined.inserted_on_boundary > 0) measure_deviation_of_result();
     score_ = meets_size(budget_, mesh_) ? score_of(refined, original_.range, report_)

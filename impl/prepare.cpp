@@ -7,6 +7,7 @@
 #include "first_culprit.hpp"
 #include "geometry.hpp"
 #include "merge_coincident.hpp"
+#include "merged_values.hpp"
 #include "status.hpp"
 #include "whole_arrays.hpp"
 
@@ -112,6 +113,15 @@ void find_scales(const Input &input, const Ranges &ranges, Original &original) {
   }
 }
 
+void find_spread_error(Original &original) {
+  original.spread_error = 0;
+  for (std::size_t k = 0; k < original.view.fields; k++) {
+    const double error = original.view.scales.relative[k] * original.spread[k].half;
+    if (error > original.spread_error) original.widest = k;
+    original.spread_error = std::max(original.spread_error, error);
+  }
+}
+
 void check_indices(const Input &input, Job &job) {
   const auto count = std::size_t(input.tets.tuples);
   const std::int64_t points = input.xyz[0].tuples, base = input.index_base;
@@ -191,7 +201,7 @@ Box check_used_points(const Input &input, const Options &options, Job &job, Orig
 
 /// Of what is left: a point whose tets were all dropped is none of the mesh's.
 void measure(const Input &input, Job &job, Original &original) {
-  Ranges ranges;
+  Ranges ranges = original.spread_range;
   original.box = {};
   for (std::size_t v = 0; v < original.view.used.size(); v++) {
     job.poll_at(v, 0.9);
@@ -200,6 +210,7 @@ void measure(const Input &input, Job &job, Original &original) {
     original.box.add(original.view.points[v]);
   }
   find_scales(input, ranges, original);
+  find_spread_error(original);
 }
 
 /// These, with their numbers among the submitted ones, instead of those that the view has.
@@ -338,16 +349,17 @@ void prepare_original(const Input &input, const Options &options, Job &job, Orig
   Array<std::int32_t> representative(&job.memory);
   Merged merged = merge_coincident(input, original.view.points, original.view.tets, original.used, submitted, options,
                                    job, representative);
-  original.merged_points = merged.points;
+  original.merged = find_merged(representative, job);
   original.merging_depends = merged.depends;
   original.merging_sees_values = merged.sees_values;
   original.torn = std::move(merged.torn);
   read_flags(input, representative, job, original);
-  if (original.merged_points || original.nonfinite_points || any_repeated_vertex(original.view.tets, job))
+  if (!original.merged.empty() || original.nonfinite_points || any_repeated_vertex(original.view.tets, job))
     drop_and_rename(representative, job, original);
   if (original.view.tets.empty())
     fail(Status::mesh_empty, "none of the %lld tets has four different vertices with a value",
          static_cast<long long>(input.tets.tuples));
+  take_middles(job, original);
   measure(input, job, original);
 }
 
@@ -375,6 +387,7 @@ bool renew_values(const Input &input, Job &job, Original &original) {
     job.poll_at(v, 0.5);
     if (original.used[v] && first_nonfinite(original.view, v) < original.view.fields) return false;
   }
+  take_middles(job, original);
   measure(input, job, original);
   return true;
 }

@@ -1,5 +1,6 @@
 // The caller's arrays become the mesh that the stages read: checked, coincident points merged, tets without volume out.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <string>
 
@@ -11,6 +12,16 @@
 
 namespace tetlod {
 
+struct MergedPoint {
+  std::int32_t into, point;
+};
+
+/// Points that became one, whose values of a field are farthest apart: half as far as that.
+struct Spread {
+  double half = 0;
+  std::int32_t lowest = 0, highest = 0;
+};
+
 /// The original mesh; the caller's own arrays where their layout allows, copies where not.
 struct Original {
   explicit Original(Memory &memory)
@@ -21,17 +32,18 @@ struct Original {
         flags(&memory),
         used(&memory),
         left(&memory),
+        merged(&memory),
         torn(&memory) {}
   MeshView view;
   Array<Vec3> points;
-  Array<double> scalars;  ///< with those of the further fields that steer
+  Array<double> scalars;  ///< with those of the further fields that steer, and of merged points the middles
   Array<Tet> tets;
   Array<std::int32_t> tet_number;     ///< of each tet among the submitted ones; empty: none was dropped
   Array<std::uint8_t> flags;          ///< of each vertex, those of points that became it included; empty: none are set
   Array<std::uint8_t> used;           ///< of each submitted point: a submitted tet has it, and all of it is finite
   Array<std::uint8_t> left;           ///< of each: a tet of the view has it; empty: none was dropped
+  Array<MergedPoint> merged;          ///< coincident points that became one, in the order of what they became
   Torn torn;                          ///< parts whose points did not, as a field jumps between them
-  std::int64_t merged_points = 0;     ///< coincident points that became one
   bool merging_depends = false;       ///< on whether parts may be in contact
   bool merging_sees_values = false;   ///< which points became one depends on the values of fields that steer
   std::int64_t nonfinite_points = 0;  ///< without a finite value, ignored with their tets
@@ -39,7 +51,11 @@ struct Original {
   std::int64_t divided_tets = 0;      ///< that others take the place of: make_conforming
   std::int32_t index_base = 0;        ///< as submitted
   int exponent = 0;                   ///< the view's coordinates are the caller's divided by 2^exponent
-  double scalar_min = 0, scalar_max = 0;  ///< over the vertices that tets of the view have
+  double scalar_min = 0, scalar_max = 0;     ///< over the vertices that tets of the view have
+  std::array<Spread, most_fields> spread{};  ///< of each field that steers
+  ValueRange<most_fields> spread_range;      ///< of what became one and differs
+  std::size_t widest = 0;                    ///< the field whose merged points are off by the most,
+  double spread_error = 0;                   ///< by that: as if all ranges were the first's
   double range = 0;  ///< of the scalars; where they are constant and another field is not, something in its place
   /// The first of those whose errors are nothing beside the scalars', or theirs beside its own; 0: none.
   std::size_t unequal_field = 0;

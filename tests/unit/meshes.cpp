@@ -145,6 +145,19 @@ void append(Mesh &to, const Mesh &from) {
   }
 }
 
+Mesh with_points_of_their_own(const Mesh &mesh) {
+  Mesh apart;
+  for (const Tet &t : mesh.tets) {
+    const auto first = std::int32_t(apart.points.size());
+    for (const std::int32_t v : t) {
+      apart.points.push_back(mesh.points[std::size_t(v)]);
+      apart.scalars.push_back(mesh.scalars[std::size_t(v)]);
+    }
+    apart.tets.push_back({first, first + 1, first + 2, first + 3});
+  }
+  return apart;
+}
+
 void shuffle(Mesh &mesh, unsigned seed) {
   std::mt19937_64 random(seed);
   for (Tet &t : mesh.tets) std::shuffle(t.begin(), t.end(), random);

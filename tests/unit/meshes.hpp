@@ -63,6 +63,8 @@ Mesh random_solid(int n, double probability, unsigned seed);
 void set_scalars(Mesh &mesh, const Field &field);
 void transform(Mesh &mesh, const std::function<Vec3(const Vec3 &)> &function);
 void append(Mesh &to, const Mesh &from);
+/// The same tets, each with points of its own.
+Mesh with_points_of_their_own(const Mesh &mesh);
 
 /// The tets in random order, their corners in random order: half of them wind the other way.
 void shuffle(Mesh &mesh, unsigned seed);

@@ -149,17 +149,11 @@ TEST_F(HangingVertices, OfCellsWithPointsOfTheirOwn) {
   std::mt19937_64 random(9);
   std::bernoulli_distribution is_fine(0.4);
   const Mesh mesh = refined_cubes(3, [&](const Cell &) { return is_fine(random); });
-  Mesh apart;
-  for (const Tet &t : mesh.tets) {
-    const auto first = std::int32_t(apart.points.size());
-    for (const std::int32_t v : t) apart.points.push_back(mesh.points[std::size_t(v)]);
-    apart.tets.push_back({first, first + 1, first + 2, first + 3});
-  }
-  apart.scalars.assign(apart.points.size(), 0);
+  const Mesh apart = with_points_of_their_own(mesh);
   for (const double ratio : {0.0, 0.1}) {
     options.target_ratio = ratio;
     expect_conforming(apart, 1);
-    EXPECT_EQ(original.merged_points, std::int64_t(apart.points.size() - mesh.points.size()));
+    EXPECT_EQ(original.merged.size(), apart.points.size() - mesh.points.size());
   }
 }
 
