@@ -12,12 +12,15 @@ namespace tetlod {
 void Beginning::begin() {
   prepare();
   extract();
-  if (original_.unequal_field > 0) tell_unequal_fields();
-  if (bound() < 0) refuse_spread();
   budget_.sigma = options_.sigma;
   if (as_published(options_)) return sample();
   report_.least_change = least_change(original_.view);
   budget_ = first_budget(options_, original_.box.diagonal(), report_);
+}
+
+void Beginning::tell_of_values() const {
+  if (original_.unequal_field > 0) tell_unequal_fields();
+  if (bound() < 0) refuse_spread();
 }
 
 void Beginning::tell_unequal_fields() const {

@@ -14,6 +14,8 @@ class Beginning {
   void begin();
 
  protected:
+  /// What cannot steer, or throws Status::max_error where no values hold a bound, whatever the mesh.
+  void tell_of_values() const;
   /// Of the error at merged points' middles; 0: none. Where merged points alone are farther off, below 0.
   double bound() const;
   void sample();
