@@ -137,7 +137,8 @@ void add_options(CLI::App &app, Arguments &arguments) {
   app.add_option("INPUT", arguments.input, "the mesh: .vtu, .vtk or .pvtu")->required();
   app.add_option("OUTPUT", arguments.output, "the simplified mesh: .vtu, .vtk or .pvtu")->required();
   app.add_option("--field", arguments.field,
-                 "point data that steers, vectors by their magnitude [the active scalars, else the first]")
+                 "point data that steers, vectors by their magnitude, cell data by their means [the active scalars, "
+                 "else the first]")
       ->type_name("NAME");
   const auto steer = [&arguments](const std::vector<std::string> &fields) {
     for (const std::string &field : fields) add_steering(field, arguments);

@@ -3,11 +3,21 @@
 #include <vtkCommand.h>
 #include <vtkDataObject.h>
 
+#include "cell_means.hpp"
 #include "failure.hpp"
 #include "interrupt.hpp"
 #include "magnitude.hpp"
 
 namespace cli {
+
+namespace {
+
+std::string point_data_for(const std::string &field, vtkUnstructuredGrid &grid, std::vector<std::string> &notes) {
+  add_means_of_cells(field, grid, notes);
+  return steering_name(field, grid, notes);
+}
+
+}  // namespace
 
 void check(tetlod_status status, const tetlod_context *context) {
   if (status == TETLOD_OK) return;
@@ -33,11 +43,11 @@ vtkUnstructuredGrid *simplify(vtkTetlodSimplify &filter, vtkUnstructuredGrid *or
                               ProgressBar &bar, VtkMessages &messages, std::vector<std::string> &notes) {
   const CancelOnInterrupt cancel(filter.GetContext());
   filter.SetInputData(original);
-  const std::string field = steering_name(arguments.field, *original, notes);
+  const std::string field = point_data_for(arguments.field, *original, notes);
   if (!field.empty()) filter.SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, field.c_str());
   filter.ClearSteeringArrays();  // their weights are known to be good; what they are is known now
   for (const auto &[name, weight] : arguments.steer)
-    filter.AddSteeringArray(steering_name(name, *original, notes).c_str(), weight);
+    filter.AddSteeringArray(point_data_for(name, *original, notes).c_str(), weight);
   filter.AddObserver(vtkCommand::ProgressEvent, &bar, &ProgressBar::on_progress);
   filter.Update();
   stop_if_interrupted();

@@ -177,6 +177,32 @@ TEST_F(Files, VectorsSteerByTheirMagnitude) {
   expect_in(said.err, "note: the vectors 'flow' steer by their magnitude");
 }
 
+// Layers of cells across x have 5 and 6 in turns: the first and the last points have one kind around them, all others
+// both.
+TEST_F(Files, CellDataSteerByTheirMeansAroundPoints) {
+  Cube cube;
+  cube.kind = Kind::hexahedron;
+  run_on(cube);
+  const char *const note = "note: the cell data 'part' steers by the means of the cells around each point";
+  const std::vector<std::string> options = {"--target-ratio", "1"};
+  for (const bool cells_alone : {false, true}) {
+    cube.cells_alone = cells_alone;
+    write_cube(folder / "in.vtk", cube);
+    std::vector<std::string> more = options;
+    if (!cells_alone) more.insert(more.end(), {"--field", "part"});
+    const Json report = run(folder / "in.vtk", folder / "out.vtu", more);
+    expect_in(said.err, note);
+    EXPECT_EQ(report["field"], "part");
+    EXPECT_EQ(report["scalar_min"], 5);
+    EXPECT_EQ(report["scalar_max"], 6);
+  }
+  run(folder / "out.vtu", folder / "again.vtu", {"--field", "part"});
+  EXPECT_EQ(said.err.find(note), std::string::npos) << "points have it now";
+  cube.with_bad_index = true;
+  write_cube(folder / "in.vtk", cube);
+  expect_in(run_tool({folder / "in.vtk", folder / "out.vtu"}).err, "names point 343, which the mesh does not have");
+}
+
 // Two cubes side by side: the points of the side between them are in both pieces, and become one.
 TEST_F(Files, PartitionedFilesAreOneMesh) {
   Cube cube;

@@ -221,7 +221,7 @@ void write_cube(const std::string &path, const Cube &cube) {
   for (const Cell &cell : cells) file << cell.type << '\n';
   file << "CELL_DATA " << cells.size() << "\nSCALARS part int 1\nLOOKUP_TABLE default\n";
   for (std::size_t i = 0; i < cells.size(); i++) file << 5 + i % 2 << '\n';
-  write_point_data(file, cube, lattice);
+  if (!cube.cells_alone) write_point_data(file, cube, lattice);
 }
 
 }  // namespace cli_test

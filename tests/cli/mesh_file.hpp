@@ -19,6 +19,7 @@ struct Cube {
   bool with_triangle = false;   // beside the volume cells
   bool with_bad_index = false;  // in the last cell
   bool vectors_alone = false;   // no scalars
+  bool cells_alone = false;     // no point data
 };
 
 // Point data: the active scalars "heat" = x + 2 y + 3 z, as a part of `hottest`, further scalars "other" = x, vectors

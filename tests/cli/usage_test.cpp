@@ -270,7 +270,6 @@ TEST_F(Usage, AStandardOutputThatIsFull) {
 TEST_F(Usage, AFieldThatIsNotThere) {
   expect_failure(run_on({}, {"--field", "cold"}), 1, "heat");
   expect_failure(run_on({}, {"--field", "cold"}), 1, "other");
-  expect_failure(run_on({}, {"--field", "part"}), 1, "cell data");
   expect_failure(run_on({}, {"--steer", "cold:3"}), 1, "no field 'cold'");
   expect_failure(run_on({}, {"--steer", "not:so"}), 1, "no field 'not:so'");
   expect_failure(run_on({}, {"--steer", "x:1:1"}), 1, "no field 'x:1'");
