@@ -136,7 +136,7 @@ typedef struct tetlod_run_report {
   int32_t threads;
   /* the original */
   int64_t points_in, tets_in;
-  int64_t merged_points;    /* coincident points that became one; the middle of their values counts */
+  int64_t merged_points;    /* coincident points that became one: the middle of their values counts */
   int64_t nonfinite_points; /* without a finite value, ignored with their tets (TETLOD_OPT_ON_NONFINITE) */
   int64_t dropped_tets;     /* with such a point, with a vertex twice (as submitted or after merging), duplicates, and
                                tets of the boundary without volume */
@@ -391,8 +391,8 @@ enum {
 /* Flags of points, any sum of the above: 1 component, uint8, as many as points; 0: simplify freely. A flagged vertex of
  * the boundary is never collapsed or moved, nor are edges between two such (today also with KEEP alone), and fewer
  * edges than sigma asks for may go; a flagged vertex inside is always a sample, however near the boundary, which is
- * decimated less where it would cut it off. Of points that are merged all flags count. tetlod_run returns
- * TETLOD_ERR_ARGUMENT for other bits and for another count, TETLOD_ERR_REMESH when there is no mesh with all. */
+ * decimated less where it would cut it off. Of merged points all flags count, and the first flagged one's value.
+ * TETLOD_ERR_ARGUMENT by tetlod_run for other bits and another count, _REMESH when there is no mesh with all. */
 TETLOD_API tetlod_status tetlod_submit_point_flags(tetlod_context *context, const tetlod_array *flags);
 /* Forgets what was submitted (the arrays may go), keeps options and the last result. */
 TETLOD_API tetlod_status tetlod_clear(tetlod_context *context);
@@ -472,7 +472,7 @@ TETLOD_API tetlod_status tetlod_fetch_field(const tetlod_context *context, const
  * and their barycentric weights (4 components, float32 or float64), none negative, adding up to 1 within rounding.
  * An original vertex is itself, with weights 1, 0, 0, 0. A point outside of every original tet takes the nearest point
  * of the original boundary: three weights and a 0. An id of weight 0 is a vertex, too. Of points that were merged the
- * lowest is named. The scalars of the result are not made from it where decimation placed a vertex.
+ * lowest is named. The scalars of the result are not made from it there, nor where decimation placed a vertex.
  * It takes no time until it is asked for: unless the run carried a point field, the first call of this or of
  * tetlod_transfer for a result reads points and tets, and of what steers, which may be of a later step, which values
  * are ignored, or jump: as in its run, else _STATE. _ARGUMENT, _BUFFER_SIZE, _MEMORY_LIMIT, _CANCELLED, _MESH_*. */

@@ -98,7 +98,7 @@ class Inspection {
 
   void look_at_values() {
     for (const Corners &tet : facts_.nonmanifold_faces == 0 ? facts_.tets : tets_)
-      for (const std::int64_t v : tet) facts_.values.add(value_of(v));
+      for (const std::int64_t v : submitted_.at(sorted(tet))) facts_.values.add(value_of(v));
     for (std::size_t v = 0; v < used_.size(); v++)
       if (used_[v]) facts_.values_used.add(value_of(std::int64_t(v)));
   }
@@ -149,11 +149,12 @@ class Inspection {
       if (!used_[v]) continue;
       renamed[v] = first.emplace(std::pair(place(std::int64_t(v)), part[v]), std::int64_t(v)).first->second;
       facts_.coincident += renamed[v] != std::int64_t(v);
-      for (const std::int64_t of : {renamed[v], std::int64_t(v)})
-        if (value_of(renamed[v]) != value_of(std::int64_t(v))) facts_.values.add(value_of(of));
     }
-    for (Corners &tet : tets_)
+    for (Corners &tet : tets_) {
+      const Corners submitted = tet;
       for (std::int64_t &v : tet) v = renamed[std::size_t(v)];
+      submitted_.emplace(sorted(tet), submitted);
+    }
   }
 
   /// The lowest point of the tets that hang together by points and, at the same places, faces; points of no
@@ -349,6 +350,7 @@ class Inspection {
   const Repairs repairs_;
   Facts facts_;
   std::vector<bool> used_;
+  std::map<Corners, Corners> submitted_;  // of merged corners, the first that became these
   std::vector<Corners> tets_;
 };
 

@@ -31,7 +31,7 @@ struct Facts {
   // After the repairs that are the default; empty where nothing can be repaired.
   std::vector<Corners> tets;   ///< merged, without those that are dropped, given twice, or peeled off as flat
   std::vector<Face> boundary;  ///< outward, in the numbers of the mesh
-  Interval values;             ///< of the points that tets have which are not dropped, and of merged ones that differ
+  Interval values;             ///< of the points that tets have which are not dropped
   Interval values_used;        ///< of all that tets have
   /// The sizes of coordinates differ by more than 1e90: products of three leave the range of doubles, and what is flat
   /// cannot be told. Or points differ by no more than rounding, for which they are at one place.

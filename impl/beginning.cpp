@@ -1,5 +1,7 @@
 #include "beginning.hpp"
 
+#include <algorithm>
+
 #include "describe.hpp"
 #include "footprint.hpp"
 #include "least_change.hpp"
@@ -12,15 +14,11 @@ namespace tetlod {
 void Beginning::begin() {
   prepare();
   extract();
+  if (original_.unequal_field > 0) tell_unequal_fields();
   budget_.sigma = options_.sigma;
   if (as_published(options_)) return sample();
   report_.least_change = least_change(original_.view);
   budget_ = first_budget(options_, original_.box.diagonal(), report_);
-}
-
-void Beginning::tell_of_values() const {
-  if (original_.unequal_field > 0) tell_unequal_fields();
-  if (bound() < 0) refuse_spread();
 }
 
 void Beginning::tell_unequal_fields() const {
@@ -34,20 +32,24 @@ void Beginning::tell_unequal_fields() const {
 double Beginning::bound() const {
   constexpr double rounding = 1e-12;  // of sums, beside the bound
   const double whole = options_.max_error * original_.range;
-  if (options_.max_error <= 0 || original_.spread_error == 0) return whole;
-  const double rest = (1 - rounding) * whole - original_.spread_error;
-  return rest > 0 ? rest : -whole;
+  if (original_.spread_error == 0) return whole;
+  return std::max((1 - rounding) * whole - original_.spread_error, 0.0);
 }
 
-/// Whatever a vertex has there, one of them is off by half of that.
 void Beginning::refuse_spread() const {
-  const Spread &worst = original_.spread[original_.widest];
+  const bool is_held = bound() > 0 || options_.max_error >= 1;  // no value leaves the range
+  if (options_.max_error <= 0 || original_.spread_error == 0 || is_held) return;
+  const auto off = [&](std::size_t k) { return original_.view.scales.relative[k] * original_.spread[k].distance; };
+  std::size_t field = 0;
+  for (std::size_t k = 1; k < original_.view.fields; k++)
+    if (off(k) > off(field)) field = k;
+  const Spread &spread = original_.spread[field];
   const auto number_of = [&](std::int32_t v) { return static_cast<long long>(v) + input_.index_base; };
-  const std::string &name = input_.name_of_steering(original_.widest);
+  const std::string &name = input_.name_of_steering(field);
   fail(Status::max_error,
-       "max-error %s cannot be held: vertices %lld and %lld are one, and their values%s%.100s differ by %s",
-       number(options_.max_error).c_str(), number_of(worst.lowest), number_of(worst.highest),
-       name.empty() ? "" : " of field ", name.c_str(), number(2 * worst.half).c_str());
+       "max-error %s cannot be held: vertices %lld and %lld are one, and values%s%.100s of theirs are %s off",
+       number(options_.max_error).c_str(), number_of(spread.lowest), number_of(spread.highest),
+       name.empty() ? "" : " of field ", name.c_str(), number(spread.distance).c_str());
 }
 
 void Beginning::prepare() {

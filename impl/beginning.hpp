@@ -14,10 +14,10 @@ class Beginning {
   void begin();
 
  protected:
-  /// What cannot steer, or throws Status::max_error where no values hold a bound, whatever the mesh.
-  void tell_of_values() const;
-  /// Of the error at merged points' middles; 0: none. Where merged points alone are farther off, below 0.
+  /// Of the error at what points became, so that it holds for each of them; 0: none.
   double bound() const;
+  /// Throws Status::max_error where no value is so near to those of points that became one.
+  void refuse_spread() const;
   void sample();
   void select();
 
@@ -41,7 +41,6 @@ class Beginning {
 
  private:
   void tell_unequal_fields() const;
-  void refuse_spread() const;
   void prepare();
   void extract();
 };

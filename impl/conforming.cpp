@@ -22,8 +22,7 @@ constexpr int most_rounds = 100;
 
 bool has_gaps(const MeshView &mesh, const Boundary &boundary, Job &job) {
   const TriangleCorners corners(mesh.points.size(), boundary.triangles, job);
-  return !find_hanging_vertices(mesh, corners, job).empty() ||
-         !find_crossed_quads(mesh, corners, boundary.tet_of, job).empty();
+  return any_hanging_vertices(mesh, corners, job) || any_crossed_quads(mesh, corners, boundary.tet_of, job);
 }
 
 /// Its boundary bounds wedges of material, and, if that is asked for, touches itself nowhere.

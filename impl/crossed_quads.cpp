@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "first_culprit.hpp"
 #include "lies_on.hpp"
 #include "predicates.hpp"
 
@@ -23,8 +24,23 @@ class CrossedQuads {
         found_(&job.memory) {}
 
   Array<CrossedQuad> find_crossed() {
-    for_each_edge([&](std::int32_t x, const Corner &left, const Corner &right) { look_for_crossed(x, left, right); });
+    for_each_edge([&](std::int32_t x, const Corner &left, const Corner &right) {
+      const CrossedQuad quad = quad_at(x, left, right);
+      if (quad.other[0] >= 0 && !is_taken(quad) && is_crossed(quad)) take(quad);
+    });
     return std::move(found_);
+  }
+
+  bool any_crossed() const {
+    FirstCulprit culprit;
+    job_.parallel.for_blocks(mesh_.points.size(), block, [&](std::size_t begin, std::size_t end) {
+      if (culprit.any()) return;
+      for_each_edge(begin, end, [&](std::int32_t x, const Corner &left, const Corner &right) {
+        const CrossedQuad quad = quad_at(x, left, right);
+        if (quad.other[0] >= 0 && is_crossed(quad)) culprit.report(std::size_t(x));
+      });
+    });
+    return culprit.any();
   }
 
   Array<CrossedQuad> find_slanted() {
@@ -38,6 +54,8 @@ class CrossedQuads {
   }
 
  private:
+  static constexpr std::size_t block = 1024;
+
   const Vec3 &at(std::int32_t v) const { return mesh_.points[std::size_t(v)]; }
   Vec3 normal(std::int32_t a, std::int32_t b, std::int32_t c) const { return area_vector(at(a), at(b), at(c)); }
   Vec3 normal(std::int32_t triangle) const {
@@ -47,8 +65,8 @@ class CrossedQuads {
 
   /// visit(x, left, right): the triangles of these corners of x have the edge from x to left.next in common.
   template <class Visit>
-  void for_each_edge(const Visit &visit) const {
-    for (std::size_t v = 0; v < mesh_.points.size(); v++) {
+  void for_each_edge(std::size_t begin, std::size_t end, const Visit &visit) const {
+    for (std::size_t v = begin; v < end; v++) {
       if (v % 256 == 0) job_.poll(0.9);  // at some there is much to look at
       const auto x = std::int32_t(v);
       const Span<const Corner> at = corners_.of(x);
@@ -58,7 +76,13 @@ class CrossedQuads {
     }
   }
 
-  void look_for_crossed(std::int32_t x, const Corner &left, const Corner &right) {
+  template <class Visit>
+  void for_each_edge(const Visit &visit) const {
+    for_each_edge(0, mesh_.points.size(), visit);
+  }
+
+  /// other: -1, -1 where no triangle lies back to back there.
+  CrossedQuad quad_at(std::int32_t x, const Corner &left, const Corner &right) const {
     const std::int32_t y = left.next, u = left.last, v = right.next;
     std::int32_t beside = -1, with_x = -1, with_y = -1;
     for (const Corner &corner : corners_.of(u)) {
@@ -71,8 +95,11 @@ class CrossedQuads {
     }
     CrossedQuad quad{{left.triangle, right.triangle}, {with_x, with_y}, {x, y, u, v}};
     if (with_x < 0 || with_y < 0) quad.other = {beside, -1};
-    if (quad.other[0] < 0 || is_taken(quad)) return;
-    if (quad.is_closed() ? bounds_next_to_nothing(quad) : may_turn(quad)) take(quad);
+    return quad;
+  }
+
+  bool is_crossed(const CrossedQuad &quad) const {
+    return quad.is_closed() ? bounds_next_to_nothing(quad) : may_turn(quad);
   }
 
   bool is_taken(const CrossedQuad &quad) const {
@@ -169,6 +196,11 @@ class CrossedQuads {
 Array<CrossedQuad> find_crossed_quads(const MeshView &mesh, const TriangleCorners &corners,
                                       Span<const std::int32_t> tet_of, Job &job) {
   return CrossedQuads(mesh, corners, tet_of, job).find_crossed();
+}
+
+bool any_crossed_quads(const MeshView &mesh, const TriangleCorners &corners, Span<const std::int32_t> tet_of,
+                       Job &job) {
+  return CrossedQuads(mesh, corners, tet_of, job).any_crossed();
 }
 
 Array<CrossedQuad> find_slanted_quads(const MeshView &mesh, const TriangleCorners &corners,

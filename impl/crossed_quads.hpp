@@ -22,6 +22,7 @@ struct CrossedQuad {
 /// of one quad at most. At vertices of very many triangles none are looked for.
 Array<CrossedQuad> find_crossed_quads(const MeshView &mesh, const TriangleCorners &corners,
                                       Span<const std::int32_t> tet_of, Job &job);
+bool any_crossed_quads(const MeshView &mesh, const TriangleCorners &corners, Span<const std::int32_t> tet_of, Job &job);
 
 /// Pairs of triangles with an edge in common, each of which has one that lies back to back on another at one of its
 /// corners, where the other diagonal of their quad is a Delaunay edge, and theirs is none: `other` is -1, -1. When all

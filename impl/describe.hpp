@@ -16,7 +16,7 @@ namespace tetlod {
 inline void describe_input(const Input &input, const Original &original, Report &report) {
   report.points_in = input.xyz[0].tuples;
   report.tets_in = input.tets.tuples;
-  report.merged_points = std::int64_t(original.merged.size());
+  report.merged_points = original.merged_points;
   report.nonfinite_points = original.nonfinite_points;
   report.dropped_tets = original.dropped_tets;
   report.divided_tets = original.divided_tets;

@@ -13,5 +13,6 @@ struct HangingVertex {
 /// corners: of the triangles of a closed surface, seen from outside. At vertices of very many triangles none are looked
 /// for.
 Array<HangingVertex> find_hanging_vertices(const MeshView &mesh, const TriangleCorners &corners, Job &job);
+bool any_hanging_vertices(const MeshView &mesh, const TriangleCorners &corners, Job &job);
 
 }  // namespace tetlod

@@ -114,19 +114,17 @@ void add_sample(const MeshView &mesh, std::size_t tet, std::uint64_t key, const 
   tally.add(field, p, solid, value_in(mesh.scalars, mesh.fields, mesh.tets[tet], weights), unit);
 }
 
-double unit_of(double range) { return range > 0 ? std::min(range, std::numeric_limits<double>::max()) : 1; }
-
-}  // namespace
-
-FieldError measure_error(const MeshView &original, double range, const TetMesh &result, int samples_per_tet,
-                         std::uint64_t seed, Job &job) {
+/// values(v, visit): visits those that were submitted for vertex v.
+template <class ValuesOf>
+FieldError measure(const MeshView &original, const ValuesOf &values, double range, const TetMesh &result,
+                   int samples_per_tet, std::uint64_t seed, Job &job) {
   const Field field(result, job);
-  const double unit = unit_of(range);
+  const double unit = range > 0 ? std::min(range, std::numeric_limits<double>::max()) : 1;
   Array<std::uint8_t> room(&job.memory);
   const Span<const std::uint8_t> used = used_points(original, job, room);
   const Tally at_vertices = tally_blocks(original.points.size(), job, 0, [&](std::size_t v, Tally &tally) {
     const std::int32_t solid = original.solid.empty() ? -1 : original.solid[v];
-    if (used[v]) tally.add(field, original.points[v], solid, original.scalars[v * original.fields], unit);
+    if (used[v]) values(v, [&](double value) { tally.add(field, original.points[v], solid, value, unit); });
   });
   const auto samples = std::uint64_t(samples_per_tet);
   const std::uint64_t first = (seed << 40) ^ (seed >> 24) * 0x9e3779b97f4a7c15u;  // seeds do not share samples
@@ -136,6 +134,14 @@ FieldError measure_error(const MeshView &original, double range, const TetMesh &
   });
   return {at_vertices.rms(), at_vertices.worst, at_vertices.share_outside(),
           inside.rms(),      inside.worst,      inside.share_outside()};
+}
+
+}  // namespace
+
+FieldError measure_error(const MeshView &original, double range, const TetMesh &result, int samples_per_tet,
+                         std::uint64_t seed, Job &job) {
+  const auto value_of = [&](std::size_t v, const auto &visit) { visit(original.scalars[v * original.fields]); };
+  return measure(original, value_of, range, result, samples_per_tet, seed, job);
 }
 
 FieldError measure_error(const Input &input, const Options &options, const TetMesh &result, int samples_per_tet,
@@ -149,19 +155,21 @@ FieldError measure_error(const Input &input, const Options &options, const TetMe
   Array<std::int32_t> solid(&job.memory);
   if (!result.solid.empty()) solid = solids_of_vertices(original.view, job);
   original.view.solid = solid;
-  const double range = original.scalar_max - original.scalar_min;
-  const auto measure = [&](const TetMesh &mesh) {
-    FieldError error = measure_error(original.view, range, mesh, samples_per_tet, std::uint64_t(options.seed), job);
-    error.max += original.spread[0].half / unit_of(range);
-    return error;
+  const auto values_of = [&](std::size_t v, const auto &visit) {
+    if (!original.has_merged(v)) return visit(original.view.scalars[v * original.view.fields]);
+    original.for_each_merged(v, [&](std::size_t u) { visit(input.scalars.real(std::int64_t(u), 0)); });
   };
-  if (original.exponent == 0) return measure(result);
+  const auto measure_of = [&](const TetMesh &mesh) {
+    return measure(original.view, values_of, original.scalar_max - original.scalar_min, mesh, samples_per_tet,
+                   std::uint64_t(options.seed), job);
+  };
+  if (original.exponent == 0) return measure_of(result);
   TetMesh scaled(job.memory);
   scaled.scalars = result.scalars;
   scaled.tets = result.tets;
   scaled.solid = result.solid;
   for (const Vec3 &p : result.points) scaled.points.push_back(times_power_of_two(p, -original.exponent));
-  return measure(scaled);
+  return measure_of(scaled);
 }
 
 void histogram(Span<const double> values, double low, double high, Span<std::int64_t> counts) {

@@ -8,33 +8,28 @@ namespace tetlod {
 
 namespace {
 
-/// Calls visit(begin, end) of the merged points of each place.
-template <class Visit>
-void for_each_place(Span<const MergedPoint> merged, Job &job, const Visit &visit) {
-  for (std::size_t begin = 0, end = 0; begin < merged.size(); begin = end) {
-    job.poll_at(begin, 0.9);
-    while (end < merged.size() && merged[end].into == merged[begin].into) end++;
-    visit(begin, end);
-  }
-}
+/// Of a field, at a place.
+struct AtPlace {
+  double low, high, flagged;
+  std::int32_t lowest = -1, highest = -1;
+  bool is_flagged = false;
 
-/// Of a field at a place, with the points that have them.
-struct Extremes {
-  double low, high;
-  std::int32_t lowest, highest;
-  void add(double value, std::int32_t v) {
-    if (value < low) low = value, lowest = v;
-    if (value > high) high = value, highest = v;
+  void add(double value, std::int32_t v, bool flag) {
+    if (lowest < 0 || value < low) low = value, lowest = v;
+    if (highest < 0 || value > high) high = value, highest = v;
+    if (flag && !is_flagged) flagged = value, is_flagged = true;
   }
-  double half() const { return 0.5 * high - 0.5 * low; }
+  double taken() const { return is_flagged ? flagged : low + (0.5 * high - 0.5 * low); }
+  Spread spread() const { return {std::max(high - taken(), taken() - low), lowest, highest}; }
 };
 
-Extremes extremes_of(const MeshView &mesh, Span<const MergedPoint> place, std::size_t field) {
-  const auto value_of = [&](std::int32_t v) { return mesh.scalars[std::size_t(v) * mesh.fields + field]; };
-  const std::int32_t first = place[0].into;
-  Extremes extremes{value_of(first), value_of(first), first, first};
-  for (const MergedPoint &p : place) extremes.add(value_of(p.point), p.point);
-  return extremes;
+AtPlace values_at(std::size_t v, std::size_t field, const Input &input, const Original &original) {
+  AtPlace values;
+  original.for_each_merged(v, [&](std::size_t u) {
+    const bool flag = input.flags.present && input.flags.at<std::uint8_t>(std::int64_t(u), 0) != 0;
+    values.add(original.view.scalars[u * original.view.fields + field], std::int32_t(u), flag);
+  });
+  return values;
 }
 
 void own_values(Job &job, Original &original) {
@@ -47,35 +42,53 @@ void own_values(Job &job, Original &original) {
 
 }  // namespace
 
-Array<MergedPoint> find_merged(Span<const std::int32_t> representative, Job &job) {
-  Array<MergedPoint> merged(&job.memory);
-  for (std::size_t v = 0; v < representative.size(); v++) {
+Array<std::int32_t> chain_merged(Span<const std::int32_t> representative, Job &job) {
+  Array<std::int32_t> next = array_of(representative.size(), -1, job);
+  for (std::size_t v = next.size(); v-- > 0;) {
     job.poll_at(v, 0.9);
-    if (representative[v] != std::int32_t(v)) merged.push_back({representative[v], std::int32_t(v)});
+    const auto to = std::size_t(representative[v]);
+    if (to == v) continue;
+    next[v] = next[to];
+    next[to] = std::int32_t(v);
   }
-  std::sort(merged.begin(), merged.end(), [](const MergedPoint &a, const MergedPoint &b) {
-    return a.into != b.into ? a.into < b.into : a.point < b.point;
-  });
-  return merged;
+  return next;
 }
 
-void take_middles(Job &job, Original &original) {
-  const std::size_t fields = original.view.fields;
+void find_points_that_count(const Input &input, Job &job, Original &original) {
+  original.counts.assign(original.next_merged.size(), 0);
+  for (std::size_t i = 0; i < original.view.tets.size(); i++) {
+    job.poll_at(i, 0.9);
+    const std::int64_t t = original.tet_number.empty() ? std::int64_t(i) : original.tet_number[i];
+    for (int k = 0; k < 4; k++) original.counts[std::size_t(input.tets.integer(t, k) - input.index_base)] = 1;
+  }
+}
+
+void take_merged_values(const Input &input, Job &job, Original &original) {
   original.spread = {};
   original.spread_range = {};
-  for_each_place(original.merged, job, [&](std::size_t begin, std::size_t end) {
-    const Span<const MergedPoint> place(original.merged.data() + begin, end - begin);
-    for (std::size_t k = 0; k < fields; k++) {
-      const Extremes extremes = extremes_of(original.view, place, k);
-      if (!(extremes.high > extremes.low)) continue;
+  const std::size_t fields = original.view.fields;
+  for (std::size_t v = 0; v < original.next_merged.size(); v++) {
+    job.poll_at(v, 0.9);
+    for (std::size_t k = 0; k < fields && original.has_merged(v); k++) {
+      const AtPlace values = values_at(v, k, input, original);
+      const double now = original.view.scalars[v * fields + k];
+      if (values.low == now && values.high == now) continue;
       own_values(job, original);
-      original.spread_range.low[k] = std::min(original.spread_range.low[k], extremes.low);
-      original.spread_range.high[k] = std::max(original.spread_range.high[k], extremes.high);
-      original.scalars[std::size_t(place[0].into) * fields + k] = extremes.low + extremes.half();
-      Spread &worst = original.spread[k];
-      if (extremes.half() > worst.half) worst = {extremes.half(), extremes.lowest, extremes.highest};
+      original.scalars[v * fields + k] = values.taken();
+      original.spread_range.low[k] = std::min(original.spread_range.low[k], values.low);
+      original.spread_range.high[k] = std::max(original.spread_range.high[k], values.high);
+      const Spread spread = values.spread();
+      if (spread.distance > original.spread[k].distance) original.spread[k] = spread;
     }
-  });
+  }
+}
+
+void find_spread_error(Original &original) {
+  original.spread_error = 0;
+  for (std::size_t k = 0; k < original.view.fields; k++)
+    original.spread_error =
+        std::max(original.spread_error, original.view.scales.relative[k] * original.spread[k].distance);
+  original.spread_error = std::min(original.spread_error, original.range);  // no value leaves its field's
 }
 
 }  // namespace tetlod

@@ -1,15 +1,21 @@
-// The values of points that became one: the middle between the least and the greatest of them counts.
+// The values of points that became one.
 #pragma once
-#include "mesh.hpp"
 #include "prepare.hpp"
 
 namespace tetlod {
 
-/// Points with others than themselves as their representative, each with that, in its order.
-Array<MergedPoint> find_merged(Span<const std::int32_t> representative, Job &job);
+/// Original::next_merged, of points with others than themselves as their representative.
+Array<std::int32_t> chain_merged(Span<const std::int32_t> representative, Job &job);
 
-/// Of original.merged, in original.view.scalars, which is a copy of the caller's array afterwards where any differ.
-/// original.spread: of each field, how far the values of a place are from its middle, at most.
-void take_middles(Job &job, Original &original);
+/// Original::counts.
+void find_points_that_count(const Input &input, Job &job, Original &original);
+
+/// Of what became one the first value that the host flags counts, else the middle between the least and the greatest:
+/// in original.view.scalars, which are a copy of the caller's array afterwards where any differ. Fills spread and
+/// spread_range.
+void take_merged_values(const Input &input, Job &job, Original &original);
+
+/// Original::spread_error, of the scales and the spread.
+void find_spread_error(Original &original);
 
 }  // namespace tetlod

@@ -29,7 +29,7 @@ class Pipeline : private Remeshing {
     if (as_published(options_) && !options_.remesh)
       fail(Status::backend_missing, "remesh is 0, and neither target-ratio nor max-error is set");
     begin();
-    tell_of_values();
+    refuse_spread();
     if (options_.on_overlap == policy_error)
       refuse_intersections(prepared_.surface(job_), prepared_.topology(job_), tree(), input_.index_base, job_);
     if (as_published(options_)) {

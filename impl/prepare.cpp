@@ -113,15 +113,6 @@ void find_scales(const Input &input, const Ranges &ranges, Original &original) {
   }
 }
 
-void find_spread_error(Original &original) {
-  original.spread_error = 0;
-  for (std::size_t k = 0; k < original.view.fields; k++) {
-    const double error = original.view.scales.relative[k] * original.spread[k].half;
-    if (error > original.spread_error) original.widest = k;
-    original.spread_error = std::max(original.spread_error, error);
-  }
-}
-
 void check_indices(const Input &input, Job &job) {
   const auto count = std::size_t(input.tets.tuples);
   const std::int64_t points = input.xyz[0].tuples, base = input.index_base;
@@ -295,6 +286,13 @@ void drop_excluded(const Input &input, Job &job, Boundary &boundary, Original &o
   measure(input, job, original);
 }
 
+/// Values of tets that were dropped do not count.
+void settle_merged(const Input &input, Job &job, Original &original) {
+  find_points_that_count(input, job, original);
+  take_merged_values(input, job, original);
+  measure(input, job, original);
+}
+
 void require_a_value_a_point(const Input &input) {
   const auto points = static_cast<long long>(input.xyz[0].tuples),
              values = static_cast<long long>(input.scalars.tuples);
@@ -349,23 +347,24 @@ void prepare_original(const Input &input, const Options &options, Job &job, Orig
   Array<std::int32_t> representative(&job.memory);
   Merged merged = merge_coincident(input, original.view.points, original.view.tets, original.used, submitted, options,
                                    job, representative);
-  original.merged = find_merged(representative, job);
+  original.merged_points = merged.points;
+  if (merged.points > 0) original.next_merged = chain_merged(representative, job);
   original.merging_depends = merged.depends;
   original.merging_sees_values = merged.sees_values;
   original.torn = std::move(merged.torn);
   read_flags(input, representative, job, original);
-  if (!original.merged.empty() || original.nonfinite_points || any_repeated_vertex(original.view.tets, job))
+  if (original.merged_points || original.nonfinite_points || any_repeated_vertex(original.view.tets, job))
     drop_and_rename(representative, job, original);
   if (original.view.tets.empty())
     fail(Status::mesh_empty, "none of the %lld tets has four different vertices with a value",
          static_cast<long long>(input.tets.tuples));
-  take_middles(job, original);
   measure(input, job, original);
 }
 
 void prepare_boundary(const Input &input, const Options &options, Job &job, Original &original, Boundary &boundary) {
   extract_boundary(original.view, job, boundary, original.numbers());
   drop_excluded(input, job, boundary, original);
+  if (original.merged_points > 0) settle_merged(input, job, original);
   if (options.on_overlap == policy_repair) make_conforming(job, boundary, original);
 }
 
@@ -387,7 +386,7 @@ bool renew_values(const Input &input, Job &job, Original &original) {
     job.poll_at(v, 0.5);
     if (original.used[v] && first_nonfinite(original.view, v) < original.view.fields) return false;
   }
-  take_middles(job, original);
+  take_merged_values(input, job, original);
   measure(input, job, original);
   return true;
 }

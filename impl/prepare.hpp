@@ -12,13 +12,9 @@
 
 namespace tetlod {
 
-struct MergedPoint {
-  std::int32_t into, point;
-};
-
-/// Points that became one, whose values of a field are farthest apart: half as far as that.
+/// Two points that became one, whose values of a field are farthest from what counts there: so far.
 struct Spread {
-  double half = 0;
+  double distance = 0;
   std::int32_t lowest = 0, highest = 0;
 };
 
@@ -32,7 +28,8 @@ struct Original {
         flags(&memory),
         used(&memory),
         left(&memory),
-        merged(&memory),
+        next_merged(&memory),
+        counts(&memory),
         torn(&memory) {}
   MeshView view;
   Array<Vec3> points;
@@ -42,8 +39,10 @@ struct Original {
   Array<std::uint8_t> flags;          ///< of each vertex, those of points that became it included; empty: none are set
   Array<std::uint8_t> used;           ///< of each submitted point: a submitted tet has it, and all of it is finite
   Array<std::uint8_t> left;           ///< of each: a tet of the view has it; empty: none was dropped
-  Array<MergedPoint> merged;          ///< coincident points that became one, in the order of what they became
+  Array<std::int32_t> next_merged;    ///< of each point, the next one that became the same, or -1; empty: none did
+  Array<std::uint8_t> counts;         ///< of each, whether a submitted tet that is left has it; empty with that
   Torn torn;                          ///< parts whose points did not, as a field jumps between them
+  std::int64_t merged_points = 0;     ///< coincident points that became one
   bool merging_depends = false;       ///< on whether parts may be in contact
   bool merging_sees_values = false;   ///< which points became one depends on the values of fields that steer
   std::int64_t nonfinite_points = 0;  ///< without a finite value, ignored with their tets
@@ -53,15 +52,22 @@ struct Original {
   int exponent = 0;                   ///< the view's coordinates are the caller's divided by 2^exponent
   double scalar_min = 0, scalar_max = 0;     ///< over the vertices that tets of the view have
   std::array<Spread, most_fields> spread{};  ///< of each field that steers
-  ValueRange<most_fields> spread_range;      ///< of what became one and differs
-  std::size_t widest = 0;                    ///< the field whose merged points are off by the most,
-  double spread_error = 0;                   ///< by that: as if all ranges were the first's
+  ValueRange<most_fields> spread_range;      ///< of values of points that became one, where they differ
+  double spread_error = 0;                   ///< the largest spread of any field: as if all ranges were the first's
   double range = 0;  ///< of the scalars; where they are constant and another field is not, something in its place
   /// The first of those whose errors are nothing beside the scalars', or theirs beside its own; 0: none.
   std::size_t unequal_field = 0;
   Box box;  ///< of the vertices that tets of the view have
 
   HostNumbers numbers() const { return {index_base, {}, tet_number}; }
+
+  bool has_merged(std::size_t v) const { return !next_merged.empty() && view.used[v] && next_merged[v] >= 0; }
+  /// visit(u): the submitted points that became v, and count.
+  template <class Visit>
+  void for_each_merged(std::size_t v, const Visit &visit) const {
+    for (auto u = std::int32_t(v); u >= 0; u = next_merged[std::size_t(u)])
+      if (counts[std::size_t(u)]) visit(std::size_t(u));
+  }
 };
 
 /// The power of two that coordinates in this box have to be divided by, so that products of six lengths stay in the

@@ -89,10 +89,10 @@ TEST_F(CrossedQuads, AreClosedBetweenParts) {
   transform(other, [](const Vec3 &p) { return Vec3(1 + p.x, 1 - p.y, p.z); });
   append(mesh, other);
   EXPECT_EQ(expect_closed(mesh, 80, 2), 0U);
-  EXPECT_EQ(original.merged.size(), 9u);
+  EXPECT_EQ(original.merged_points, 9);
   options.target_ratio = 0.1;  // they may be in contact
   prepare(mesh);
-  EXPECT_EQ(original.merged.size(), 0u);
+  EXPECT_EQ(original.merged_points, 0);
 }
 
 /// Numbers are those of tets nearby.

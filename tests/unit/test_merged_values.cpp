@@ -1,90 +1,120 @@
-// Cells with points of their own, as discontinuous methods have them: what is told, and bounded, is true of each one's
-// values.
-#include <random>
+// What counts of points that become one, and how far the others are from it.
+#include <gtest/gtest.h>
 
-#include "whole_run.hpp"
+#include <algorithm>
+#include <cmath>
+
+#include "meshes.hpp"
+#include "prepare.hpp"
 
 namespace tetlod {
 namespace {
 
 using namespace test;
 
-constexpr double jump = 0.02;  // at most, where cells meet
-
-class MergedValues : public WholeRun {
+class MergedValues : public testing::Test {
  protected:
-  static Mesh jumping(unsigned seed) {
-    Mesh cube = kuhn_cube(6);
-    set_scalars(cube, waves);
-    Mesh mesh = with_points_of_their_own(cube);
-    std::mt19937 random(seed);
-    std::uniform_real_distribution<double> noise(-0.5 * jump, 0.5 * jump);
-    for (double &value : mesh.scalars) value += noise(random);
-    return mesh;
-  }
+  Host host;
+  Original original{host.memory};
+  Mesh mesh = cube();
+  std::size_t place = std::size_t(mesh.tets[0][0]);
+  std::vector<std::uint8_t> flags;
 
-  static double range_of(const Mesh &mesh) {
-    const auto [low, high] = std::minmax_element(mesh.scalars.begin(), mesh.scalars.end());
-    return *high - *low;
+  /// The k-th tet gets a point of its own there.
+  void take_own_point(std::size_t k, double value) {
+    std::int32_t &corner = *std::find(mesh.tets[k].begin(), mesh.tets[k].end(), std::int32_t(place));
+    corner = std::int32_t(mesh.points.size());
+    mesh.points.push_back(mesh.points[place]);
+    mesh.scalars.push_back(value);
   }
+  Input input() {
+    Input input = input_of(mesh);
+    if (!flags.empty()) input.flags = strided(flags.data(), flags.size(), 1, 1, ElementType::uint8);
+    return input;
+  }
+  void prepare_all() {
+    Boundary boundary(host.memory);
+    original = Original(host.memory);
+    prepare_with_boundary(input(), {}, host.job, original, boundary);
+  }
+  static Mesh cube() {
+    Mesh cube = kuhn_cube(4);
+    set_scalars(cube, [](const Vec3 &p) { return p.x + 2 * p.y - 4 * p.z; });
+    return cube;
+  }
+  double value() const { return original.view.scalars[place]; }
 };
 
-TEST_F(MergedValues, TheLargestErrorIsNoLessThanThatOfEachPoint) {
-  const Mesh original = jumping(1);
-  for (const std::int64_t effort : {effort_fast, effort_accurate}) {
-    options.effort = effort;
-    options.target_ratio = 0.3;
-    simplify(original);
-    const double error = brute_largest_error(original, mesh());
-    EXPECT_GE(report().max_error, error);
-    EXPECT_LE(report().max_error, error + 0.5 * jump / range_of(original));
-    EXPECT_GE(measure_error(input_of(original), options, mesh(), 0, host.job).max, error);
+/// The middle of theirs; the caller's stay what they are.
+TEST_F(MergedValues, HaveOneValue) {
+  mesh.scalars[place] = 1;
+  take_own_point(0, 10);
+  take_own_point(1, -2);
+  const std::vector<double> submitted = mesh.scalars;
+  prepare_all();
+  EXPECT_EQ(original.merged_points, 2);
+  EXPECT_EQ(value(), 4);
+  EXPECT_EQ(mesh.scalars, submitted);
+  EXPECT_EQ(original.scalar_min, -4);
+  EXPECT_EQ(original.scalar_max, 10);
+  EXPECT_EQ(original.spread_error, 6);
+  EXPECT_EQ(original.spread[0].lowest, std::int32_t(submitted.size() - 1));
+  EXPECT_EQ(original.spread[0].highest, std::int32_t(submitted.size() - 2));
+  for (const double other : {3.0, 1.0}) {
+    mesh.scalars[submitted.size() - 1] = mesh.scalars[submitted.size() - 2] = other;
+    EXPECT_TRUE(renew_values(input(), host.job, original));
+    EXPECT_EQ(value(), 0.5 * (other + 1));
+    EXPECT_EQ(original.spread_error, 0.5 * (other - 1));
+    EXPECT_EQ(original.scalar_max, 3);
   }
 }
 
-TEST_F(MergedValues, ABoundHoldsForEach) {
-  for (const unsigned seed : {2u, 3u}) {
-    const Mesh original = jumping(seed);
-    for (const double bound : {0.1, 0.01}) {
-      options.max_error = bound;
-      simplify(original);
-      EXPECT_LE(report().max_error, bound);
-      EXPECT_LE(brute_largest_error(original, mesh()), bound);
-      EXPECT_LT(report().tets_out, report().tets_in);
-    }
-  }
+/// The host wants it.
+TEST_F(MergedValues, HaveTheFirstValueThatIsFlagged) {
+  mesh.scalars[place] = 1;
+  take_own_point(0, 2.5);
+  take_own_point(1, -2);
+  flags.assign(mesh.points.size(), 0);
+  flags[mesh.points.size() - 2] = flags[mesh.points.size() - 1] = keep_vertex;
+  prepare_all();
+  EXPECT_EQ(value(), 2.5);
+  EXPECT_EQ(original.spread_error, 4.5);
 }
 
-/// Two values at one place that are farther apart than twice the bound.
-TEST_F(MergedValues, ABoundThatNoValueHoldsIsRefused) {
-  Mesh original = jumping(4);
-  const auto other = std::find(original.points.begin() + 1, original.points.end(), original.points[0]);
-  ASSERT_NE(other, original.points.end());
-  const auto second = std::size_t(other - original.points.begin());
-  original.scalars[second] = original.scalars[0] + 2 * jump;
-  options.max_error = 0.9 * jump / range_of(original);
-  try {
-    simplify(original);
-    FAIL() << "no value is so near to both";
-  } catch (const Error &error) {
-    EXPECT_EQ(error.status(), Status::max_error);
-    EXPECT_NE(std::string(error.what()).find(" and " + std::to_string(second) + " "), std::string::npos)
-        << error.what();
+/// A cell that is given twice, with points of its own, and one without a volume, outside.
+TEST_F(MergedValues, OfDroppedTetsDoNotCount) {
+  mesh.scalars[place] = 1;
+  const auto first = std::int32_t(mesh.points.size());
+  for (const std::int32_t v : Tet(mesh.tets[0])) {
+    mesh.points.push_back(mesh.points[std::size_t(v)]);
+    mesh.scalars.push_back(1e6);
   }
+  mesh.tets.push_back({first, first + 1, first + 2, first + 3});
+  for (const double x : {0.0, 0.0, 7.0, 8.0, 9.0}) {
+    mesh.points.push_back(Vec3(x, -1, -1));
+    mesh.scalars.push_back(x - 1e6);
+  }
+  mesh.tets.push_back({first + 4, first + 6, first + 7, first + 8});
+  mesh.tets.push_back({first + 5, first + 6, first + 7, first + 8});
+  prepare_all();
+  EXPECT_EQ(original.merged_points, 5);
+  EXPECT_EQ(original.dropped_tets, 0);  // by its corners alone
+  EXPECT_EQ(value(), 1);
+  EXPECT_EQ(original.spread_error, 0);
+  EXPECT_EQ(original.scalar_max, 3);
+  EXPECT_EQ(original.scalar_min, -4);
 }
 
-/// As a run of its own would do it.
-TEST_F(MergedValues, ALaterStepHasItsOwn) {
-  Prepared prepared(host.memory);
-  options.target_ratio = 0.3;
-  for (const unsigned seed : {5u, 6u}) {
-    const Mesh step = jumping(seed);
-    Result again(host.memory);
-    run(input_of(step), options, worker, prepared, host.job, again);
-    EXPECT_EQ(again.report.reused_tets, seed == 5 ? 0 : again.report.tets_in);
-    simplify(step);
-    EXPECT_EQ(again.report.hash, report().hash);
-    EXPECT_EQ(again.report.max_error, report().max_error);
+/// Its distance from both is told, whatever it is rounded to.
+TEST_F(MergedValues, MayHaveNoMiddle) {
+  for (const auto &[one, other] : {std::pair(1e16, 1e16 + 2), std::pair(0.0, 5e-324), std::pair(-1.7e308, 1.7e308)}) {
+    mesh = cube();
+    std::fill(mesh.scalars.begin(), mesh.scalars.end(), one);
+    take_own_point(0, other);
+    prepare_all();
+    const double off = std::max(std::abs(value() - one), std::abs(value() - other));
+    EXPECT_EQ(original.spread_error, std::min(off, original.range)) << one;
+    EXPECT_GT(off, 0);
   }
 }
 

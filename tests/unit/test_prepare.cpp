@@ -74,7 +74,7 @@ TEST_F(Prepare, CommonLayoutIsNotCopied) {
   EXPECT_EQ(original.scalar_max, 3);
   EXPECT_EQ(original.box.low, Vec3(0));
   EXPECT_EQ(original.box.high, Vec3(1));
-  EXPECT_EQ(original.merged.size(), 0u);
+  EXPECT_EQ(original.merged_points, 0);
   EXPECT_EQ(original.dropped_tets, 0);
 }
 
@@ -157,7 +157,7 @@ TEST_F(Prepare, DropsTetsWithARepeatedVertex) {
     }
   prepare(input_of(mesh));
   EXPECT_EQ(original.dropped_tets, 6);
-  EXPECT_EQ(original.merged.size(), 0u);
+  EXPECT_EQ(original.merged_points, 0);
   mesh.tets = good;
   expect_view(mesh);
 }
@@ -184,7 +184,7 @@ TEST_F(Prepare, MergesAndDrops) {
     mesh.tets.push_back({twin, joined[std::size_t(twin)], 5, 50});
     mesh.scalars.assign(mesh.points.size(), 1.0);
     prepare(input_of(mesh), gap > 0 ? 1e-3 : 0);
-    EXPECT_EQ(original.merged.size(), 16u) << gap;
+    EXPECT_EQ(original.merged_points, 16) << gap;
     EXPECT_EQ(original.dropped_tets, 1) << gap;
     ASSERT_EQ(original.view.tets.size(), expected.size());
     for (std::size_t t = 0; t < expected.size(); t++) EXPECT_EQ(original.view.tets[t], expected[t]);
@@ -262,35 +262,6 @@ TEST_F(Prepare, PointsOfTetsThatTheBoundaryLeavesOutAreNoneOfTheMesh) {
   expect_that_of_the_cube(5);
 }
 
-/// The middle of theirs, whichever of them have it; the caller's stay what they are.
-TEST_F(Prepare, MergedPointsHaveOneValue) {
-  Mesh mesh = cube_for_floats();
-  const auto place = std::size_t(mesh.tets[0][0]);
-  for (std::size_t k = 0; k < 2; k++) {
-    mesh.tets[k][0] = std::int32_t(mesh.points.size());
-    mesh.points.push_back(mesh.points[place]);
-    mesh.scalars.push_back(k == 0 ? 10 : -2);
-  }
-  mesh.scalars[place] = 1;
-  const std::vector<double> submitted = mesh.scalars;
-  prepare(input_of(mesh));
-  EXPECT_EQ(original.merged.size(), 2u);
-  EXPECT_EQ(original.view.scalars[place], 4);
-  EXPECT_EQ(mesh.scalars, submitted);
-  EXPECT_EQ(original.scalar_min, -4);
-  EXPECT_EQ(original.scalar_max, 10);
-  EXPECT_EQ(original.spread_error, 6);
-  EXPECT_EQ(original.spread[0].lowest, std::int32_t(submitted.size() - 1));
-  EXPECT_EQ(original.spread[0].highest, std::int32_t(submitted.size() - 2));
-  for (const double other : {3.0, 1.0}) {
-    mesh.scalars[submitted.size() - 1] = mesh.scalars[submitted.size() - 2] = other;
-    EXPECT_TRUE(renew_values(input_of(mesh), host.job, original));
-    EXPECT_EQ(original.view.scalars[place], 0.5 * (other + 1));
-    EXPECT_EQ(original.spread_error, 0.5 * (other - 1));
-    EXPECT_EQ(original.scalar_max, 3);
-  }
-}
-
 TEST_F(Prepare, PointsThatNoTetUsesMayBeAnything) {
   Mesh mesh = cube_for_floats();
   mesh.points.push_back(Vec3(nan, infinity, 1e300));
@@ -298,7 +269,7 @@ TEST_F(Prepare, PointsThatNoTetUsesMayBeAnything) {
   mesh.scalars.push_back(nan);
   mesh.scalars.push_back(1e300);
   prepare(input_of(mesh));
-  EXPECT_EQ(original.merged.size(), 0u);
+  EXPECT_EQ(original.merged_points, 0);
   EXPECT_EQ(original.scalar_max, 3);
   EXPECT_EQ(original.box.high, Vec3(1));
 }

@@ -1,0 +1,92 @@
+// Cells with points of their own, as discontinuous methods have them: what is told, and bounded, is true of each one's
+// values.
+#include <random>
+
+#include "whole_run.hpp"
+
+namespace tetlod {
+namespace {
+
+using namespace test;
+
+constexpr double jump = 0.02;  // at most, where cells meet
+
+class MergedRuns : public WholeRun {
+ protected:
+  static Mesh jumping(unsigned seed) {
+    Mesh cube = kuhn_cube(6);
+    set_scalars(cube, waves);
+    Mesh mesh = with_points_of_their_own(cube);
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> noise(-0.5 * jump, 0.5 * jump);
+    for (double &value : mesh.scalars) value += noise(random);
+    return mesh;
+  }
+
+  static double range_of(const Mesh &mesh) {
+    const auto [low, high] = std::minmax_element(mesh.scalars.begin(), mesh.scalars.end());
+    return *high - *low;
+  }
+};
+
+TEST_F(MergedRuns, TheLargestErrorIsNoLessThanThatOfEachPoint) {
+  const Mesh original = jumping(1);
+  for (const std::int64_t effort : {effort_fast, effort_accurate}) {
+    options.effort = effort;
+    options.target_ratio = 0.3;
+    simplify(original);
+    const double error = brute_largest_error(original, mesh());
+    EXPECT_GE(report().max_error, error);
+    EXPECT_LE(report().max_error, error + 0.5 * jump / range_of(original));
+    EXPECT_NEAR(measure_error(input_of(original), options, mesh(), 0, host.job).max, error, 1e-12);
+  }
+}
+
+TEST_F(MergedRuns, ABoundHoldsForEach) {
+  for (const unsigned seed : {2u, 3u}) {
+    const Mesh original = jumping(seed);
+    for (const double bound : {0.1, 0.01}) {
+      options.max_error = bound;
+      simplify(original);
+      EXPECT_LE(report().max_error, bound);
+      EXPECT_LE(brute_largest_error(original, mesh()), bound);
+      EXPECT_LT(report().tets_out, report().tets_in);
+    }
+  }
+}
+
+/// Two values at one place that are farther apart than twice the bound.
+TEST_F(MergedRuns, ABoundThatNoValueHoldsIsRefused) {
+  Mesh original = jumping(4);
+  const auto other = std::find(original.points.begin() + 1, original.points.end(), original.points[0]);
+  ASSERT_NE(other, original.points.end());
+  const auto second = std::size_t(other - original.points.begin());
+  original.scalars[second] = original.scalars[0] + 2 * jump;
+  options.max_error = 0.9 * jump / range_of(original);
+  try {
+    simplify(original);
+    FAIL() << "no value is so near to both";
+  } catch (const Error &error) {
+    EXPECT_EQ(error.status(), Status::max_error);
+    EXPECT_NE(std::string(error.what()).find(" and " + std::to_string(second) + " "), std::string::npos)
+        << error.what();
+  }
+}
+
+/// As a run of its own would do it.
+TEST_F(MergedRuns, ALaterStepHasItsOwn) {
+  Prepared prepared(host.memory);
+  options.target_ratio = 0.3;
+  for (const unsigned seed : {5u, 6u}) {
+    const Mesh step = jumping(seed);
+    Result again(host.memory);
+    run(input_of(step), options, worker, prepared, host.job, again);
+    EXPECT_EQ(again.report.reused_tets, seed == 5 ? 0 : again.report.tets_in);
+    simplify(step);
+    EXPECT_EQ(again.report.hash, report().hash);
+    EXPECT_EQ(again.report.max_error, report().max_error);
+  }
+}
+
+}  // namespace
+}  // namespace tetlod
