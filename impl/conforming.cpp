@@ -93,6 +93,10 @@ void make_conforming(Job &job, Boundary &boundary, Original &original) {
   original.view.tets = original.tets;
 }
 
+bool close_gaps_of(Job &job, NumberedTets &tets) {
+  return tets.find_boundary(job) && (!has_gaps(tets.view(), tets.boundary, job) || close_gaps(job, tets, false));
+}
+
 bool can_conform(Job &job, NumberedTets &tets) {
   return tets.find_boundary(job) && has_gaps(tets.view(), tets.boundary, job) && close_gaps(job, tets, false) &&
          is_solid(tets, true, job);

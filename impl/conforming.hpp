@@ -16,4 +16,7 @@ void make_conforming(Job &job, Boundary &boundary, Original &original);
 /// independently have. True: they did not conform, and do now, with no slit left.
 bool can_conform(Job &job, NumberedTets &tets);
 
+/// Closes what gaps they have. False: that comes to no end.
+bool close_gaps_of(Job &job, NumberedTets &tets);
+
 }  // namespace tetlod

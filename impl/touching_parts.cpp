@@ -8,6 +8,7 @@
 #include "disjoint_sets.hpp"
 #include "face_sweep.hpp"
 #include "field_jumps.hpp"
+#include "folded_back.hpp"
 
 namespace tetlod {
 
@@ -34,6 +35,7 @@ class TouchingParts {
       find_torn(tets);
       const std::int64_t parts = parts_.count();
       join_across_faces(tets);
+      if (find_ill_fitting(tets)) join_anew(tets);
       const bool are_of_one_mesh = parts_.count() < parts;  // not of an assembly, where some happen to fit
       if (are_of_one_mesh && any_apart() && can_conform(job_, tets)) {
         find_torn(tets);
@@ -46,6 +48,8 @@ class TouchingParts {
   }
 
  private:
+  static constexpr std::int32_t large = 64;  // tets
+
   bool has_all(const Tet &t) const {
     return std::all_of(t.begin(), t.end(), [&](std::int32_t v) { return used_[std::size_t(v)] != 0; });
   }
@@ -107,9 +111,7 @@ class TouchingParts {
 
   /// Which parts, as submitted, a field jumps between; but not small ones, as the cells of a method that lets it jump.
   void find_torn(const NumberedTets &tets) {
-    constexpr std::int32_t fewest = 64;
-    const auto is_large = [&](const Tet &t) { return count_[std::size_t(part(t))] >= fewest; };
-    if (std::count_if(count_.begin(), count_.end(), [&](std::int32_t count) { return count >= fewest; }) < 2) return;
+    if (std::count_if(count_.begin(), count_.end(), [&](std::int32_t count) { return count >= large; }) < 2) return;
     const FieldJumps fields(input_, used_, job_);
     Torn &torn = kept_.torn;
     for_neighbours(tets, [&](const Tet &t, const Tet &u) {
@@ -117,6 +119,40 @@ class TouchingParts {
       kept_.sees_values = true;
       if (is_torn(fields, t, u)) torn.push_back(pair_of(t, u));
     });
+    sort_torn();
+  }
+
+  /// Which of those that have a face in common lie on one another beside it, however gaps are closed. True: some do.
+  bool find_ill_fitting(const NumberedTets &tets) {
+    if (!any_large_neighbours(tets)) return false;
+    NumberedTets closed = tets;
+    if (!close_gaps_of(job_, closed)) return false;
+    Torn &torn = kept_.torn;
+    const std::size_t before = torn.size();
+    const auto tet = [&](std::int32_t t) { return tets_[std::size_t(closed.number[std::size_t(t)])]; };
+    for (const auto &[one, other] : find_folded_back(closed, job_)) {
+      const Tet t = tet(one), u = tet(other);
+      if (part(t) != part(u) && is_large(t) && is_large(u)) torn.push_back(pair_of(t, u));
+    }
+    sort_torn();
+    return torn.size() > before;
+  }
+
+  bool any_large_neighbours(const NumberedTets &tets) const {
+    bool any = false;
+    for_neighbours(
+        tets, [&](const Tet &t, const Tet &u) { any = any || (part(t) != part(u) && is_large(t) && is_large(u)); });
+    return any;
+  }
+
+  void join_anew(const NumberedTets &tets) {
+    parts_ = DisjointSets(representative_.size(), job_.memory);
+    join_tets();
+    join_across_faces(tets);
+  }
+
+  void sort_torn() {
+    Torn &torn = kept_.torn;
     std::sort(torn.begin(), torn.end());
     torn.erase(std::unique(torn.begin(), torn.end()), torn.end());
   }
@@ -129,6 +165,7 @@ class TouchingParts {
     for (const std::int32_t t : tets.number) count_[std::size_t(part(tets_[std::size_t(t)]))]++;
   }
 
+  bool is_large(const Tet &t) const { return count_[std::size_t(part(t))] >= large; }
   std::int32_t part(const Tet &t) const { return part_[std::size_t(t[0])]; }
   std::pair<std::int32_t, std::int32_t> pair_of(const Tet &t, const Tet &u) const {
     return std::minmax({part(t), part(u)});

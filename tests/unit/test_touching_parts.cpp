@@ -260,6 +260,22 @@ TEST_F(TouchingParts, OfOtherLevelsStayApartWhereAFieldJumps) {
   }
 }
 
+/// Of two blocks half of the faces between them are the same, and the others are not: they are no one mesh.
+TEST_F(TouchingParts, WhoseFacesFitInPlacesAloneStayApart) {
+  for (const bool fits : {true, false}) {
+    mesh = Mesh();
+    add_cube(6, Vec3(0));
+    const std::size_t first = mesh.points.size();
+    add_cube(6, Vec3(1, 0, 0));
+    std::mt19937 random(4);
+    std::uniform_real_distribution<double> off(0.02, 0.06);
+    for (std::size_t v = first; v < mesh.points.size(); v++)
+      if (Vec3 &p = mesh.points[v]; !fits && p.x == 1 && p.y > 0.5 && p.y < 1 && p.z > 0 && p.z < 1)
+        p += Vec3(0, off(random), off(random));
+    EXPECT_EQ(merge(), fits ? 49 : 0);
+  }
+}
+
 /// They may be the cells of a method that lets it jump everywhere.
 TEST_F(TouchingParts, OfFewTetsMergeWhateverTheirValues) {
   add_cube(2, Vec3(0));
