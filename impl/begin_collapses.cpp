@@ -107,7 +107,7 @@ CollapseStart<m> begin_collapses(const MeshView &original, const Boundary &bound
     if (auto start = warm_start(original, boundary, fields, options, history, job)) return std::move(*start);
     history.forget_earlier(job.memory);
   }
-  const std::int64_t least = std::max(options.enough, options.careful_from);
+  const std::int64_t least = std::max({options.enough, options.careful_from, options.relaxed_from});
   const SolidState<m> *const state =
       keeps_states ? history.before<m>(options.tets, options.enough, least, job.memory) : nullptr;
   if (state)

@@ -146,6 +146,7 @@ class SolidDecimator {
 
   /// As below; infinite: nothing is admissible, however rules relax.
   double limit_of_round() {
+    while (count_ <= options_.relaxed_from && progress_.relaxed <= places_.most_for_slivers) relax();
     double limit = limit_by_costs();
     while (limit == infinity && goes_on()) limit = limit_by_costs();
     return limit;

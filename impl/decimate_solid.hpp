@@ -33,11 +33,12 @@ struct SolidOptions {
   double dearest = 0;                       ///< what they may cost then, the square of a length
   double max_deviation = 0;                 ///< as in DecimateOptions
   Samples measured_at = Samples::vertices;  ///< what of the boundaries a deviation is told of
-  bool hasty = false;        ///< vertices inside are removed nearer to the size, and more of them in a round
-  bool holds_bound = false;  ///< what is flat gets no flatter, because a bound is to be held there
-  bool may_relax = false;    ///< where little is admissible else, the boundary may get more folded than it is
-  double planes = 1;         ///< what the boundary's planes weigh, of weigh_planes()
-  bool is_attempt = false;   ///< one of several: no states come and go
+  bool hasty = false;             ///< vertices inside are removed nearer to the size, and more of them in a round
+  bool holds_bound = false;       ///< what is flat gets no flatter, because a bound is to be held there
+  bool may_relax = false;         ///< where little is admissible else, the boundary may get more folded than it is,
+  std::int64_t relaxed_from = 0;  ///< and with so many tets or fewer in any case
+  double planes = 1;              ///< what the boundary's planes weigh, of weigh_planes()
+  bool is_attempt = false;        ///< one of several: no states come and go
   double warm_start = 0;  ///< begins where earlier values left the solid, if the error gets larger by this part at most
   Span<const std::uint8_t> kept;      ///< original vertices that keep place and value; empty: none
   Span<const std::uint8_t> restored;  ///< others that do so this time; empty: none

@@ -83,6 +83,7 @@ class Pipeline : private Remeshing {
   bool coarsen(Worker &worker) {
     CoarseSolid coarse(job_.memory);
     mesh_.tets.clear();
+    relaxed_from_ = 0;
     if (!collapses_edges(options_, report_)) {
       if (!remesh_in_place_of(coarse, worker) && options_.clean_edges == 0) collapse_in_place_of_remeshed(coarse);
     } else if (!collapse_edges(false, coarse)) {
@@ -187,6 +188,7 @@ class Pipeline : private Remeshing {
   /// To the budget, or to what suits the bound, where that betters `best`. False: to no sound mesh of the size.
   bool collapse_edges(bool may_relax, CoarseSolid &best) {
     describe_boundary(prepared_.topology(job_), report_);
+    if (may_relax && best.is_sound) relaxed_from_ = long_before * std::int64_t(best.mesh.tets.size());
     SolidOptions options = collapse_options();
     options.may_relax = may_relax;
     // With further attempts it would save the first alone, and take memory from the others.
@@ -215,6 +217,8 @@ class Pipeline : private Remeshing {
     options.hasty = is_hasty(options_, report_);
     options.holds_bound = options_.max_error > 0;
     if (!options.holds_bound) options.planes = planes_at_size(double(budget_.tets) / double(report_.sound_tets()));
+    options.may_relax = relaxed_from_ > 0;
+    options.relaxed_from = relaxed_from_;
     options.warm_start = options_.warm_start;
     options.kept = kept_.by_host();
     options.restored = kept_.restored();
@@ -310,9 +314,13 @@ class Pipeline : private Remeshing {
     split_fields(input_, job_, result_);
   }
 
-  bool in_contact_ = false;    // solids of the mesh, as collapses left it
-  std::int64_t stuck_at_ = 0;  // tets, where no edge was left to collapse; 0: the size was reached so far
-  double score_ = 0;           // of the last refinement
+  /// Where nothing is admissible at last, little was, and dear, when there were so many times the tets.
+  static constexpr std::int64_t long_before = 2;
+
+  bool in_contact_ = false;        // solids of the mesh, as collapses left it
+  std::int64_t stuck_at_ = 0;      // tets, where no edge was left to collapse; 0: the size was reached so far
+  std::int64_t relaxed_from_ = 0;  // tets, where no edge was left; 0: rules hold as long as they can
+  double score_ = 0;               // of the last refinement
   Array<std::int32_t> beyond_{&job_.memory};  // the bound: original vertices, after the last refinement
 };
 

@@ -103,6 +103,28 @@ TEST_F(WarmStart, KeepsNoStateOfSharpFolds) {
     EXPECT_LT(state.progress.relaxed, SolidPlaces<1>::most_for_slivers);
 }
 
+/// Another way from there on: no coarser state begins it, and it leaves none.
+TEST_F(WarmStart, WhereRulesGiveWayEarlyAHistoryServesNoLess) {
+  Mesh flat = flat_body();
+  set_scalars(flat, waves);
+  start_with(flat);
+  options.may_relax = true;
+  options.warm_start = 0;
+  SolidHistory history(host.memory);
+  CoarseSolid late(host.memory), early(host.memory), again(host.memory);
+  decimate(0.1, host, history, late);
+  const std::size_t states = history.states<1>(host.memory).size();
+  decimate(0.1, host, history, again);
+  EXPECT_GT(again.reused, 0);
+  options.relaxed_from = std::int64_t(flat.tets.size());
+  EXPECT_TRUE(decimate(0.1, host, early)) << failure;
+  expect_sound(early);
+  EXPECT_NE(early.mesh.points, late.mesh.points);
+  decimate(0.1, host, history, again);
+  expect_same(again.mesh, early.mesh);
+  EXPECT_EQ(history.states<1>(host.memory).size(), states);
+}
+
 /// Where rules may relax further the way is another one from there on: nothing that comes after is kept.
 TEST_F(WarmStart, KeepsNoStateThatIsNotOnTheWayOfAll) {
   Mesh slab = slab_with_slits(30, 8);
