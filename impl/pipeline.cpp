@@ -90,7 +90,7 @@ class Pipeline : private Remeshing {
       ladder_ = coarse.is_sound ? Ladder::first_rung : Ladder::whole;
       const bool serves = may_remesh(coarse) && remesh_in_place_of(coarse, worker);
       const bool may_fold = coarse.is_sound && options_.max_error == 0 && !meets_size(budget_, coarse.mesh);
-      if (!serves && may_fold) attempt_in_memory(job_, [&] { collapse_edges(true, coarse); });
+      if (!serves && may_fold) attempt_in_memory(job_, [&] { fold(coarse); });
     }
     if (!coarse.is_sound && mesh_.tets.empty()) {
       if (!options_.remesh)  // who remeshes has looked at that
@@ -110,6 +110,13 @@ class Pipeline : private Remeshing {
     bool met = false;
     if (!attempt_in_memory(job_, [&] { met = remesh_to_target(worker); })) mesh_.tets.clear();
     return met && report_.max_deviation <= far_off;
+  }
+
+  /// Long before no edge was left those that were left had become dear.
+  void fold(CoarseSolid &coarse) {
+    constexpr std::int64_t long_before = 2;  // times the tets
+    relaxed_from_ = long_before * std::int64_t(coarse.mesh.tets.size());
+    collapse_edges(true, coarse);
   }
 
   /// Where remeshing led to the size, but far off, that serves as well.
@@ -188,7 +195,6 @@ class Pipeline : private Remeshing {
   /// To the budget, or to what suits the bound, where that betters `best`. False: to no sound mesh of the size.
   bool collapse_edges(bool may_relax, CoarseSolid &best) {
     describe_boundary(prepared_.topology(job_), report_);
-    if (may_relax && best.is_sound) relaxed_from_ = long_before * std::int64_t(best.mesh.tets.size());
     SolidOptions options = collapse_options();
     options.may_relax = may_relax;
     // With further attempts it would save the first alone, and take memory from the others.
@@ -314,12 +320,9 @@ class Pipeline : private Remeshing {
     split_fields(input_, job_, result_);
   }
 
-  /// Where nothing is admissible at last, little was, and dear, when there were so many times the tets.
-  static constexpr std::int64_t long_before = 2;
-
   bool in_contact_ = false;        // solids of the mesh, as collapses left it
   std::int64_t stuck_at_ = 0;      // tets, where no edge was left to collapse; 0: the size was reached so far
-  std::int64_t relaxed_from_ = 0;  // tets, where no edge was left; 0: rules hold as long as they can
+  std::int64_t relaxed_from_ = 0;  // tets, from which folds may sharpen; 0: rules hold as long as they can
   double score_ = 0;               // of the last refinement
   Array<std::int32_t> beyond_{&job_.memory};  // the bound: original vertices, after the last refinement
 };
