@@ -11,7 +11,7 @@ namespace {
 bool is_scalar(vtkDataArray *array) { return array != nullptr && array->GetNumberOfComponents() == 1; }
 
 // "a, b (3 components)"
-std::string names_of(vtkPointData &data) {
+std::string names_of(vtkDataSetAttributes &data) {
   std::string names;
   for (int i = 0; i < data.GetNumberOfArrays(); i++) {
     vtkDataArray *array = data.GetArray(i);
@@ -22,9 +22,10 @@ std::string names_of(vtkPointData &data) {
   return names;
 }
 
-std::string what_there_is(vtkPointData &data) {
-  const std::string names = names_of(data);
-  return names.empty() ? "there is no point data" : "point data: " + names;
+std::string what_there_is(vtkUnstructuredGrid &grid) {
+  const std::string of_points = names_of(*grid.GetPointData()), of_cells = names_of(*grid.GetCellData());
+  return (of_points.empty() ? "there is no point data" : "point data: " + of_points) +
+         (of_cells.empty() ? "" : "; cell data: " + of_cells);
 }
 
 std::string why_not(vtkUnstructuredGrid &grid, const std::string &name) {
@@ -33,22 +34,23 @@ std::string why_not(vtkUnstructuredGrid &grid, const std::string &name) {
   return "no field '" + name + "'";
 }
 
-vtkDataArray *first_scalar(vtkPointData &data) {
+vtkDataArray *first_scalar(vtkUnstructuredGrid &grid) {
+  vtkPointData &data = *grid.GetPointData();
   if (is_scalar(data.GetScalars())) return data.GetScalars();
   for (int i = 0; i < data.GetNumberOfArrays(); i++) {
     if (is_scalar(data.GetArray(i))) return data.GetArray(i);
   }
   const char *const why =
       names_of(data).empty() ? "" : "no field of one number a point, which a calculator makes of a vector; ";
-  throw std::runtime_error(why + what_there_is(data));
+  throw std::runtime_error(why + what_there_is(grid));
 }
 
 }  // namespace
 
 vtkDataArray *steering_field(vtkUnstructuredGrid &grid, const std::string &name) {
-  if (name.empty()) return first_scalar(*grid.GetPointData());
+  if (name.empty()) return first_scalar(grid);
   vtkDataArray *array = grid.GetPointData()->GetArray(name.c_str());
-  if (!is_scalar(array)) throw std::runtime_error(why_not(grid, name) + "; " + what_there_is(*grid.GetPointData()));
+  if (!is_scalar(array)) throw std::runtime_error(why_not(grid, name) + "; " + what_there_is(grid));
   return array;
 }
 
