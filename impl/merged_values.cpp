@@ -10,7 +10,7 @@ namespace {
 
 /// Of a field, at a place.
 struct AtPlace {
-  double low, high, flagged;
+  double low = 0, high = 0, flagged = 0;
   std::int32_t lowest = -1, highest = -1;
   bool is_flagged = false;
 

@@ -140,7 +140,7 @@ struct Result {
   std::vector<CarriedField> fields;  ///< and those that steered beside the scalars
   Report report;
   Fingerprint original;  ///< of its points and tets
-  Torn torn;             ///< parts of it between which a field jumped
+  Torn torn;             ///< parts of it that stayed apart, though they have faces in common
 };
 
 /// Simplifies; throws Error. `result` is meant to be a fresh one: after a throw its contents mean nothing. Takes what

@@ -269,8 +269,7 @@ bool any_repeated_vertex(Span<const Tet> tets, Job &job) {
   return culprit.any();
 }
 
-void drop_excluded(const Input &input, Job &job, Boundary &boundary, Original &original) {
-  if (boundary.excluded.empty()) return;
+void drop_excluded(Job &job, Boundary &boundary, Original &original) {
   Array<Tet> kept(&job.memory);
   Array<std::int32_t> numbers(&job.memory), renamed = array_of(original.view.tets.size(), -1, job);
   for (std::size_t t = 0; t < renamed.size(); t++) {
@@ -283,14 +282,6 @@ void drop_excluded(const Input &input, Job &job, Boundary &boundary, Original &o
   take_tets(std::move(kept), std::move(numbers), job, original);
   for (std::int32_t &t : boundary.tet_of) t = renamed[std::size_t(t)];
   boundary.excluded.clear();
-  measure(input, job, original);
-}
-
-/// Values of tets that were dropped do not count.
-void settle_merged(const Input &input, Job &job, Original &original) {
-  find_points_that_count(input, job, original);
-  take_merged_values(input, job, original);
-  measure(input, job, original);
 }
 
 void require_a_value_a_point(const Input &input) {
@@ -363,8 +354,13 @@ void prepare_original(const Input &input, const Options &options, Job &job, Orig
 
 void prepare_boundary(const Input &input, const Options &options, Job &job, Original &original, Boundary &boundary) {
   extract_boundary(original.view, job, boundary, original.numbers());
-  drop_excluded(input, job, boundary, original);
-  if (original.merged_points > 0) settle_merged(input, job, original);
+  const bool are_dropped = !boundary.excluded.empty(), are_merged = original.merged_points > 0;
+  if (are_dropped) drop_excluded(job, boundary, original);
+  if (are_merged) {  // values of tets that were dropped do not count
+    find_points_that_count(input, job, original);
+    take_merged_values(input, job, original);
+  }
+  if (are_dropped || are_merged) measure(input, job, original);
   if (options.on_overlap == policy_repair) make_conforming(job, boundary, original);
 }
 

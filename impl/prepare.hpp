@@ -41,7 +41,7 @@ struct Original {
   Array<std::uint8_t> left;           ///< of each: a tet of the view has it; empty: none was dropped
   Array<std::int32_t> next_merged;    ///< of each point, the next one that became the same, or -1; empty: none did
   Array<std::uint8_t> counts;         ///< of each, whether a submitted tet that is left has it; empty with that
-  Torn torn;                          ///< parts whose points did not, as a field jumps between them
+  Torn torn;                          ///< parts whose points did not, though they have faces in common
   std::int64_t merged_points = 0;     ///< coincident points that became one
   bool merging_depends = false;       ///< on whether parts may be in contact
   bool merging_sees_values = false;   ///< which points became one depends on the values of fields that steer

@@ -99,7 +99,7 @@ class TouchingParts {
     });
   }
 
-  /// Parts between which a field jumps, these or others that are one with them.
+  /// Parts that stay apart, these or others that are one with them.
   bool would_join_torn(const Tet &t, const Tet &u) {
     const Torn &torn = kept_.torn;
     if (std::binary_search(torn.begin(), torn.end(), pair_of(t, u))) return true;
@@ -115,7 +115,7 @@ class TouchingParts {
     const FieldJumps fields(input_, used_, job_);
     Torn &torn = kept_.torn;
     for_neighbours(tets, [&](const Tet &t, const Tet &u) {
-      if (part(t) == part(u) || !is_large(t) || !is_large(u)) return;
+      if (!may_be_torn(t, u)) return;
       kept_.sees_values = true;
       if (is_torn(fields, t, u)) torn.push_back(pair_of(t, u));
     });
@@ -123,8 +123,9 @@ class TouchingParts {
   }
 
   /// Which of those that have a face in common lie on one another beside it, however gaps are closed. True: some do.
+  /// After find_torn(), which sees values where there are such parts.
   bool find_ill_fitting(const NumberedTets &tets) {
-    if (!any_large_neighbours(tets)) return false;
+    if (!kept_.sees_values) return false;
     NumberedTets closed = tets;
     if (!close_gaps_of(job_, closed)) return false;
     Torn &torn = kept_.torn;
@@ -132,17 +133,10 @@ class TouchingParts {
     const auto tet = [&](std::int32_t t) { return tets_[std::size_t(closed.number[std::size_t(t)])]; };
     for (const auto &[one, other] : find_folded_back(closed, job_)) {
       const Tet t = tet(one), u = tet(other);
-      if (part(t) != part(u) && is_large(t) && is_large(u)) torn.push_back(pair_of(t, u));
+      if (may_be_torn(t, u)) torn.push_back(pair_of(t, u));
     }
     sort_torn();
     return torn.size() > before;
-  }
-
-  bool any_large_neighbours(const NumberedTets &tets) const {
-    bool any = false;
-    for_neighbours(
-        tets, [&](const Tet &t, const Tet &u) { any = any || (part(t) != part(u) && is_large(t) && is_large(u)); });
-    return any;
   }
 
   void join_anew(const NumberedTets &tets) {
@@ -165,7 +159,10 @@ class TouchingParts {
     for (const std::int32_t t : tets.number) count_[std::size_t(part(tets_[std::size_t(t)]))]++;
   }
 
-  bool is_large(const Tet &t) const { return count_[std::size_t(part(t))] >= large; }
+  bool may_be_torn(const Tet &t, const Tet &u) const {
+    const auto is_large = [&](const Tet &of) { return count_[std::size_t(part(of))] >= large; };
+    return part(t) != part(u) && is_large(t) && is_large(u);
+  }
   std::int32_t part(const Tet &t) const { return part_[std::size_t(t[0])]; }
   std::pair<std::int32_t, std::int32_t> pair_of(const Tet &t, const Tet &u) const {
     return std::minmax({part(t), part(u)});

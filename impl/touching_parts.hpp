@@ -8,16 +8,17 @@ namespace tetlod {
 struct KeptApart {
   explicit KeptApart(Memory &memory) : torn(&memory) {}
   std::int64_t merged = 0;   ///< points, all the same
-  Torn torn;                 ///< between which a field jumps
+  Torn torn;                 ///< that have faces in common all the same
   bool sees_values = false;  ///< with others more or fewer might be
 };
 
-/// Where parts have a face in common the mesh goes on from the one to the other, unless a field that steers jumps
-/// between them somewhere, by more than a hundredth of its range, and both have 64 tets; if any have, also where it
-/// conforms only after make_conforming(). Where they only touch, at a vertex, an edge or where faces lie on one another
-/// in other ways, it does not, and points of several parts at one place would make slits and edges of four triangles of
-/// it. representative: as merge_points() leaves it; of points at one place, each part's become one of its own. Parts:
-/// tets that have points in common, as submitted, or a face by place. Tets with an unused vertex are none.
+/// Where parts have a face in common the mesh goes on from the one to the other, unless both have 64 tets, and a field
+/// that steers jumps between them somewhere, by more than a hundredth of its range, or they lie on one another beside
+/// that face in other ways; if any have, also where it conforms only after make_conforming(). Where they only touch, at
+/// a vertex, an edge or where faces lie on one another in other ways, it does not, and points of several parts at one
+/// place would make slits and edges of four triangles of it. representative: as merge_points() leaves it; of points at
+/// one place, each part's become one of its own. Parts: tets that have points in common, as submitted, or a face by
+/// place. Tets with an unused vertex are none.
 KeptApart keep_touching_parts_apart(const Input &input, Span<const Vec3> points, Span<const Tet> tets,
                                     Span<const std::uint8_t> used, Job &job, Array<std::int32_t> &representative);
 

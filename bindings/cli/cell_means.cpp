@@ -3,8 +3,8 @@
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkGenericCell.h>
-#include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkSmartPointer.h>
 
 #include <algorithm>
 #include <map>
@@ -51,8 +51,8 @@ class SolidTypes {
   std::map<int, bool> known_;
 };
 
-// Calls use(cell, point) for each point that a solid cell has. A file may name points that there are not; whoever reads
-// the cells afterwards refuses them.
+// Calls use(cell, point) for each point that a solid cell has. A file may name points that there are not, which
+// VTK's own filter for such means trusts; whoever reads the cells afterwards refuses them.
 template <class Use>
 void for_each_corner(vtkUnstructuredGrid &grid, const Use &use) {
   SolidTypes solids;
@@ -73,12 +73,12 @@ vtkSmartPointer<vtkDataArray> means_of(vtkDataArray &of_cells, vtkUnstructuredGr
   means->SetNumberOfComponents(components);
   means->SetNumberOfTuples(grid.GetNumberOfPoints());
   means->Fill(0);
+  double *const sums = means->GetPointer(0);
   std::vector<double> cells(std::size_t(grid.GetNumberOfPoints()), 0);
   for_each_corner(grid, [&](vtkIdType, vtkIdType point) { cells[std::size_t(point)]++; });
   for_each_corner(grid, [&](vtkIdType cell, vtkIdType point) {
     for (int k = 0; k < components; k++)  // each a part: a sum may be more than a double holds
-      means->SetComponent(point, k,
-                          means->GetComponent(point, k) + of_cells.GetComponent(cell, k) / cells[std::size_t(point)]);
+      sums[point * components + k] += of_cells.GetComponent(cell, k) / cells[std::size_t(point)];
   });
   return means;
 }

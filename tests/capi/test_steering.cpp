@@ -220,6 +220,8 @@ TEST_F(Steering, RangesTooFarApart) {
     EXPECT_EQ(told.find("the smaller one does not steer: field other: its range and the scalars', 1.99"), 0U) << told;
     ASSERT_EQ(tetlod_set_real(context.get(), TETLOD_OPT_MAX_ERROR, 0.1), TETLOD_OK);
     expect_failure(tetlod_run(context.get()), TETLOD_ERR_MAX_ERROR, "max-error cannot be held for field other: its ra");
+    std::uint64_t bytes = 0;
+    EXPECT_EQ(tetlod_estimate_memory(context.get(), &bytes), TETLOD_ERR_MAX_ERROR);
   }
 }
 
