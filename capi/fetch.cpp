@@ -51,6 +51,7 @@ tetlod_run_report report_of(const Outcome &outcome) {
   to.nonfinite_points = from.nonfinite_points;
   to.dropped_tets = from.dropped_tets;
   to.divided_tets = from.divided_tets;
+  to.moved_points = from.moved_points;
   to.unused_points = from.unused_points;
   to.interior_points_in = from.interior_points_in;
   to.boundary_points_in = from.boundary_points_in;

@@ -19,13 +19,11 @@
  *   Statuses   Functions that can fail return a tetlod_status. A call that fails leaves every output argument and the
  *              previous result as they were; tetlod_last_message() says what was wrong, with the index and the value.
  *              Beside the statuses that a function lists, any of them can return TETLOD_ERR_ARGUMENT (a null or
- *              misaligned pointer, a context that is not one), TETLOD_ERR_MEMORY, and TETLOD_ERR_INTERNAL (a defect of
- *              the library: please report the message).
+ *              misaligned pointer, a context that is not one), TETLOD_ERR_MEMORY, and TETLOD_ERR_INTERNAL (a defect).
  *   Threads    A context is used by one thread at a time; different contexts by different threads at the same time.
- *              tetlod_cancel() alone may be called from another thread. Callbacks are called on the thread that called
- *              the library, in the host's floating-point state, and must not call it with the same context (but for
- *              tetlod_cancel): that is TETLOD_ERR_STATE, and tetlod_destroy is ignored. A C++ exception that leaves
- *              one ends the run with TETLOD_ERR_CANCELLED.
+ *              tetlod_cancel() alone may be called from another thread. Callbacks are called on the calling thread, in
+ *              the host's floating-point state, and may call tetlod_cancel() alone with the same context: others are
+ *              TETLOD_ERR_STATE, or ignored. A C++ exception that leaves one ends the run with TETLOD_ERR_CANCELLED.
  *   Memory     Submitted arrays are borrowed: they are read during tetlod_run(), tetlod_check(), calls that estimate,
  *              measure or count, and the first tetlod_fetch_stencil() or tetlod_transfer() of a result, never
  *              written, and must live, unchanged in place and shape, until the same slot is submitted again,
@@ -173,6 +171,7 @@ typedef struct tetlod_run_report {
   int64_t reused_samples;   /* samples known to be inside or outside, near or far */
   int64_t reused_collapses; /* of edges of the solid (TETLOD_OPT_EFFORT), for another size, or other values */
   int64_t divided_tets;     /* that others take the place of, as the mesh did not conform (TETLOD_OPT_ON_OVERLAP) */
+  int64_t moved_points;     /* of the original's (TETLOD_OPT_ON_OVERLAP); max_deviation has the farthest move on top */
 } tetlod_run_report;
 
 /* The field error of the last result, as the paper estimates it [4]. Errors are |result - original|, relative to the
@@ -305,7 +304,8 @@ enum {
   TETLOD_OPT_ON_INVERTED = 15,  /* "on-inverted": take the tets the other way round; TETLOD_ERR_MESH_DEGENERATE */
   TETLOD_OPT_ON_DUPLICATE = 16, /* "on-duplicate": drop the later tets; TETLOD_ERR_MESH_INTERSECTING */
   TETLOD_OPT_ON_OVERLAP = 17,   /* "on-overlap": inner neighbours on one side of a face, and solids in contact, are kept
-                                   (tetlod_run), faces that do not fit are divided; TETLOD_ERR_MESH_INTERSECTING */
+                                   (tetlod_run), faces that do not fit are divided, and points are moved where tets are
+                                   turned over at the boundary; TETLOD_ERR_MESH_INTERSECTING */
   TETLOD_OPT_ON_UNUSED = 18,    /* "on-unused": ignore the points; TETLOD_ERR_MESH_DEGENERATE */
   TETLOD_OPT_ON_NONFINITE = 19, /* "on-nonfinite": ignore points without a finite value, with their tets;
                                    TETLOD_ERR_MESH_NONFINITE, the default */

@@ -15,6 +15,7 @@ void Beginning::begin() {
   prepare();
   extract();
   if (original_.unequal_field > 0) tell_unequal_fields();
+  if (original_.moved_points > 0) tell_moves();
   budget_.sigma = options_.sigma;
   if (as_published(options_)) return sample();
   report_.least_change = least_change(original_.view);
@@ -29,11 +30,33 @@ void Beginning::tell_unequal_fields() const {
   if (job_.log) job_.log(2, ("the smaller one does not steer: " + fields).c_str());
 }
 
+void Beginning::tell_moves() const {
+  if (!job_.log) return;
+  job_.log(2,
+           text("tets are turned over at the boundary: %lld points are moved, those on it by up to %s of the diagonal",
+                static_cast<long long>(original_.moved_points),
+                number(original_.boundary_moved_by / original_.box.diagonal()).c_str())
+               .c_str());
+}
+
 double Beginning::bound() const {
   constexpr double rounding = 1e-12;  // of sums, beside the bound
   const double whole = options_.max_error * original_.range;
   if (original_.spread_error == 0) return whole;
   return std::max((1 - rounding) * whole - original_.spread_error, 0.0);
+}
+
+double Beginning::deviation_limit() const {
+  if (options_.max_deviation == 0) return 0;
+  return options_.max_deviation * original_.box.diagonal() - original_.boundary_moved_by;
+}
+
+void Beginning::refuse_moves() const {
+  if (deviation_limit() > 0 || options_.max_deviation == 0) return;
+  fail(Status::mesh_intersecting,
+       "tets are turned over at the boundary, of which vertices would have to be moved by %s of the diagonal "
+       "(max-deviation: %s)",
+       number(original_.boundary_moved_by / original_.box.diagonal()).c_str(), number(options_.max_deviation).c_str());
 }
 
 void Beginning::refuse_spread() const {

@@ -16,6 +16,10 @@ class Beginning {
  protected:
   /// Of the error at what points became, so that it holds for each of them; 0: none.
   double bound() const;
+  /// Of the boundary from what untangle() left of the original's, so that it holds for that; 0: none.
+  double deviation_limit() const;
+  /// Throws Status::mesh_intersecting where that has moved it farther already.
+  void refuse_moves() const;
   /// Throws Status::max_error where no value is so near to those of points that became one.
   void refuse_spread() const;
   void sample();
@@ -41,6 +45,7 @@ class Beginning {
 
  private:
   void tell_unequal_fields() const;
+  void tell_moves() const;
   void prepare();
   void extract();
 };

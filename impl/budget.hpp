@@ -125,9 +125,9 @@ inline Budget larger_budget(double ratio, double sigma, const Report &report) {
 /// No tet has to go.
 inline bool keeps_all(const Budget &budget, const Report &report) { return budget.tets >= report.sound_tets(); }
 
-/// What collapses left, where there was none. origin: of each point, see came_from.hpp.
+/// What collapses left, where there was none, and nothing was moved. origin: of each point, see came_from.hpp.
 inline bool is_the_original(const TetMesh &mesh, Span<const std::int32_t> origin, const Report &report) {
-  return std::int64_t(mesh.tets.size()) == report.sound_tets() &&
+  return std::int64_t(mesh.tets.size()) == report.sound_tets() && report.moved_points == 0 &&
          std::all_of(origin.begin(), origin.end(), [](std::int32_t v) { return v >= 0; });
 }
 

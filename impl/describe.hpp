@@ -20,6 +20,7 @@ inline void describe_input(const Input &input, const Original &original, Report 
   report.nonfinite_points = original.nonfinite_points;
   report.dropped_tets = original.dropped_tets;
   report.divided_tets = original.divided_tets;
+  report.moved_points = original.moved_points;
   report.scalar_min = original.scalar_min;
   report.scalar_max = original.scalar_max;
   report.keeps_some =
@@ -78,6 +79,11 @@ inline void describe_collapses(const CoarseSolid &coarse, const Original &origin
 inline void describe_size(const TetMesh &mesh, Report &report) {
   report.points_out = std::int64_t(mesh.points.size());
   report.tets_out = std::int64_t(mesh.tets.size());
+}
+
+/// At last: the boundary was moved before it was measured from.
+inline void describe_moves(const Original &original, Report &report) {
+  report.max_deviation += original.boundary_moved_by / original.box.diagonal();
 }
 
 /// What to say where a bound does not hold at these original vertices, whatever of the boundary is kept.

@@ -112,7 +112,7 @@ class OutsideVertices {
   }
 
  private:
-  const Vec3 &place(std::size_t k) const { return original_.points[std::size_t(vertices_[k])]; }
+  const Vec3 &place(std::size_t k) const { return original_.place(std::size_t(vertices_[k])); }
 
   double error_in(std::size_t k, const Tet &t, const double w[4]) const {
     const Values<m> &value = original_.values<m>()[std::size_t(vertices_[k])];

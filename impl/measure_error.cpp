@@ -124,7 +124,7 @@ FieldError measure(const MeshView &original, const ValuesOf &values, double rang
   const Span<const std::uint8_t> used = used_points(original, job, room);
   const Tally at_vertices = tally_blocks(original.points.size(), job, 0, [&](std::size_t v, Tally &tally) {
     const std::int32_t solid = original.solid.empty() ? -1 : original.solid[v];
-    if (used[v]) values(v, [&](double value) { tally.add(field, original.points[v], solid, value, unit); });
+    if (used[v]) values(v, [&](double value) { tally.add(field, original.place(v), solid, value, unit); });
   });
   const auto samples = std::uint64_t(samples_per_tet);
   const std::uint64_t first = (seed << 40) ^ (seed >> 24) * 0x9e3779b97f4a7c15u;  // seeds do not share samples

@@ -30,6 +30,7 @@ class Pipeline : private Remeshing {
       fail(Status::backend_missing, "remesh is 0, and neither target-ratio nor max-error is set");
     begin();
     refuse_spread();
+    refuse_moves();
     if (options_.on_overlap == policy_error)
       refuse_intersections(prepared_.surface(job_), prepared_.topology(job_), tree(), input_.index_base, job_);
     if (as_published(options_)) {
@@ -43,6 +44,7 @@ class Pipeline : private Remeshing {
     }
     scale_back(original_, job_, mesh_);
     describe_size(mesh_, report_);
+    describe_moves(original_, report_);
     carry();
   }
 
@@ -247,8 +249,6 @@ class Pipeline : private Remeshing {
     if (budget_.enough > 0) budget_.tets = std::int64_t(mesh_.tets.size());
     origin_ = std::move(coarse.origin);
   }
-
-  double deviation_limit() const { return options_.max_deviation * original_.box.diagonal(); }
 
   void tell_missed_size() const {
     if (!job_.log || options_.max_error > 0 || meets_size(budget_, mesh_)) return;

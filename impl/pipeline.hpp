@@ -97,6 +97,7 @@ struct Report {
   std::int64_t sound_tets() const { return tets_in - dropped_tets; }
   std::int64_t points_in = 0, tets_in = 0;
   std::int64_t merged_points = 0, nonfinite_points = 0, dropped_tets = 0, divided_tets = 0, unused_points = 0;
+  std::int64_t moved_points = 0;
   std::int64_t interior_points_in = 0;
   std::int64_t boundary_points_in = 0, boundary_edges_in = 0, boundary_triangles_in = 0;
   std::int64_t components = 0, nonmanifold_edges = 0, nonmanifold_points = 0;

@@ -60,7 +60,7 @@ void add_vertices(const MeshView &original, double most, Job &job, AdaptiveMesh<
     if (!used[v]) continue;
     due += share;
     if (taken(due) <= mesh.probes.size()) continue;
-    mesh.probes.push_back({original.points[v], values[v]});
+    mesh.probes.push_back({original.place(v), values[v]});
     mesh.vertex_of_probe.push_back(std::int32_t(v));
   }
 }

@@ -9,6 +9,7 @@
 #include "merge_coincident.hpp"
 #include "merged_values.hpp"
 #include "status.hpp"
+#include "untangle.hpp"
 #include "whole_arrays.hpp"
 
 namespace tetlod {
@@ -361,7 +362,10 @@ void prepare_boundary(const Input &input, const Options &options, Job &job, Orig
     take_merged_values(input, job, original);
   }
   if (are_dropped || are_merged) measure(input, job, original);
-  if (options.on_overlap == policy_repair) make_conforming(job, boundary, original);
+  if (options.on_overlap != policy_repair) return;
+  make_conforming(job, boundary, original);
+  untangle(job, boundary, original);
+  if (original.moved_points > 0) measure(input, job, original);
 }
 
 void prepare_with_boundary(const Input &input, const Options &options, Job &job, Original &original,
@@ -375,7 +379,10 @@ bool renew_values(const Input &input, Job &job, Original &original) {
   if (original.nonfinite_points > 0) return false;
   const auto points = std::size_t(input.xyz[0].tuples), tets = std::size_t(input.tets.tuples);
   if (original.points.empty() && !interleaved_doubles(input.xyz)) return false;
-  if (original.points.empty()) original.view.points = {reinterpret_cast<const Vec3 *>(input.xyz[0].data), points};
+  if (original.points.empty()) {
+    const Span<const Vec3> submitted(reinterpret_cast<const Vec3 *>(input.xyz[0].data), points);
+    (original.moved.empty() ? original.view.points : original.view.submitted) = submitted;
+  }
   if (original.tets.empty()) original.view.tets = {reinterpret_cast<const Tet *>(input.tets.data), tets};
   read_values(input, job, original);
   for (std::size_t v = 0; v < points; v++) {

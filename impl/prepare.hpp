@@ -22,6 +22,7 @@ struct Spread {
 struct Original {
   explicit Original(Memory &memory)
       : points(&memory),
+        moved(&memory),
         scalars(&memory),
         tets(&memory),
         tet_number(&memory),
@@ -33,6 +34,7 @@ struct Original {
         torn(&memory) {}
   MeshView view;
   Array<Vec3> points;
+  Array<Vec3> moved;      ///< the view's, where untangle() has moved some; else empty
   Array<double> scalars;  ///< with those of the further fields that steer, and of merged points the middles
   Array<Tet> tets;
   Array<std::int32_t> tet_number;     ///< of each tet among the submitted ones; empty: none was dropped
@@ -48,6 +50,8 @@ struct Original {
   std::int64_t nonfinite_points = 0;  ///< without a finite value, ignored with their tets
   std::int64_t dropped_tets = 0;      ///< with such a point, or with a repeated vertex, as submitted or after merging
   std::int64_t divided_tets = 0;      ///< that others take the place of: make_conforming
+  std::int64_t moved_points = 0;      ///< by untangle()
+  double boundary_moved_by = 0;       ///< the farthest of them on the boundary
   std::int32_t index_base = 0;        ///< as submitted
   int exponent = 0;                   ///< the view's coordinates are the caller's divided by 2^exponent
   double scalar_min = 0, scalar_max = 0;     ///< over the vertices that tets of the view have

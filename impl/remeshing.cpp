@@ -21,7 +21,7 @@ void Remeshing::decimate(double sigma) {
   const double range = original_.range, diagonal = box_of(surface.points).diagonal();
   const double weight = as_published(options_) || !(range > 0) ? 0 : field_weight_of(report_) * diagonal / range;
   const double lambda = as_published(options_) ? options_.lambda : Options().lambda;  // of a constant field
-  DecimateOptions options{sigma, lambda, options_.clean_edges, options_.max_deviation * diagonal};
+  DecimateOptions options{sigma, lambda, options_.clean_edges, deviation_limit()};
   for (std::size_t k = 0; k < surface.fields; k++) options.field_weight[k] = weight * original_.view.scales.weighted[k];
   const Prepared::Decimated decimated = prepared_.decimate(options, input_.index_base, job_, surface_);
   report_.cleaned_edges = decimated.cleaned_edges;

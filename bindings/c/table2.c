@@ -93,6 +93,7 @@ static void repairs(FILE *to, const tetlod_run_report *run) {
   if (run->nonfinite_points > 0) count_row(to, "points without a value", run->nonfinite_points);
   if (run->dropped_tets > 0) count_row(to, "tets dropped", run->dropped_tets);
   if (run->divided_tets > 0) count_row(to, "tets divided", run->divided_tets);
+  if (run->moved_points > 0) count_row(to, "points moved", run->moved_points);
   if (run->unused_points > 0) count_row(to, "unused points", run->unused_points);
 }
 

@@ -20,6 +20,7 @@ void put_counts(Json &json, const tetlod_run_report &run) {
   json["nonfinite_points"] = run.nonfinite_points;
   json["dropped_tets"] = run.dropped_tets;
   json["divided_tets"] = run.divided_tets;
+  json["moved_points"] = run.moved_points;
   json["unused_points"] = run.unused_points;
   json["interior_points_in"] = run.interior_points_in;
   json["selected_samples"] = run.selected_samples;

@@ -126,6 +126,7 @@ module tetlod_types
     integer(c_int64_t) :: reused_samples = 0
     integer(c_int64_t) :: reused_collapses = 0
     integer(c_int64_t) :: divided_tets = 0
+    integer(c_int64_t) :: moved_points = 0
   end type
 
   ! The field error of the last result, relative to the range of the original's values.

@@ -83,6 +83,7 @@ static const place places[] = {
     PLACE(run_report, reused_samples, 360, 8),
     PLACE(run_report, reused_collapses, 368, 8),
     PLACE(run_report, divided_tets, 376, 8),
+    PLACE(run_report, moved_points, 384, 8),
     PLACE(error_report, struct_size, 0, 4),
     PLACE(error_report, samples_per_tet, 4, 4),
     PLACE(error_report, rms, 8, 8),

@@ -19,14 +19,16 @@ struct Cell {
 // Points stand on a lattice; cells are `step` wide in it. Kinds with points between their corners need two steps.
 class Lattice {
  public:
-  Lattice(const Cube &cube, int step) : size_(cube.size), step_(step), row_(cube.size * step + 1), shift_(cube.shift) {}
+  Lattice(const Cube &cube, int step)
+      : size_(cube.size), step_(step), row_(cube.size * step + 1), shift_(cube.shift), dent_(cube.dent) {}
 
   int step() const { return step_; }
   long points() const { return static_cast<long>(row_) * row_ * row_; }
   long id(const Node &n) const { return (static_cast<long>(n[2]) * row_ + n[1]) * row_ + n[0]; }
   std::array<double, 3> point(const Node &n) const {
     const double whole = row_ - 1;
-    return {n[0] / whole + shift_, n[1] / whole, n[2] / whole};
+    const bool is_dented = n[0] == row_ / 2 && n[1] == row_ / 2 && n[2] == row_ - 1;
+    return {n[0] / whole + shift_, n[1] / whole, n[2] / whole - (is_dented ? dent_ : 0)};
   }
 
   template <class Use>
@@ -49,7 +51,7 @@ class Lattice {
   }
 
   int size_, step_, row_;
-  double shift_;
+  double shift_, dent_;
 };
 
 // Corner `c` of a cell: bits 0, 1, 2 are x, y, z.

@@ -16,6 +16,7 @@ struct Cube {
   std::string other = "other";  // its name, encoded as the format has it
   std::string integer;          // int or vtktypeint64: format 5.1; empty: format 4.2
   double shift = 0;             // of all points along x
+  double dent = 0;              // how far the middle of its top, of even size, is pushed in
   bool with_triangle = false;   // beside the volume cells
   bool with_bad_index = false;  // in the last cell
   bool vectors_alone = false;   // no scalars

@@ -14,8 +14,8 @@ using Json = nlohmann::json;
 
 class Report : public testing::Test {
  protected:
-  Outcome run(std::vector<std::string> more = {}) {
-    write_cube(folder / "in.vtk", {});
+  Outcome run(std::vector<std::string> more = {}, const Cube &cube = {}) {
+    write_cube(folder / "in.vtk", cube);
     more.insert(more.begin(), {folder / "in.vtk", folder / "out.vtu", "--report", folder / "report.json"});
     const Outcome outcome = run_tool(more);
     std::ifstream file(folder / "report.json");
@@ -47,6 +47,20 @@ TEST_F(Report, CountsTheInput) {
   EXPECT_EQ(json["boundary_edges_in"], 6 * 6 * 6 * 3);
   EXPECT_EQ(json["scalar_max"], 6.0);
   EXPECT_GE(json["seconds"]["total"], json["seconds"]["remesh"]);
+}
+
+TEST_F(Report, SaysThatPointsWereMoved) {
+  Cube bent;
+  bent.dent = 0.18;  // through the layer below
+  const Outcome said = run({"--target-ratio", "0.5"}, bent);
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_GT(json["moved_points"], 0);
+  EXPECT_NE(said.err.find("note: cells are turned over at the boundary: " + json["moved_points"].dump() + " points"),
+            std::string::npos)
+      << said.err;
+  EXPECT_EQ(run({"--target-ratio", "0.5", "--on-overlap", "error"}, bent).status, 1);
+  ASSERT_EQ(run({"--target-ratio", "0.5"}).status, 0);
+  EXPECT_EQ(json["moved_points"], 0);
 }
 
 TEST_F(Report, OptionsAreThoseInEffect) {

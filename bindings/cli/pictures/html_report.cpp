@@ -102,6 +102,7 @@ std::string samples_table(const tetlod_run_report &run) {
   if (run.merged_points > 0) table.row("coincident points merged", count_text(run.merged_points));
   if (run.dropped_tets > 0) table.row("tets dropped", count_text(run.dropped_tets));
   if (run.divided_tets > 0) table.row("tets divided", count_text(run.divided_tets));
+  if (run.moved_points > 0) table.row("points moved", count_text(run.moved_points));
   if (run.nonfinite_points > 0) table.row("points without a value", count_text(run.nonfinite_points));
   table.row("boundary components, kept", count_text(run.components));
   return table.text();
