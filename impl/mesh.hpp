@@ -51,7 +51,7 @@ struct MeshView {
   FieldScales scales{};
   Span<const std::uint8_t> used{};   ///< of each point, whether a tet has it; empty: nobody has looked
   Span<const std::int32_t> solid{};  ///< of each point, where solids are in contact, else empty; -1: of several
-  Span<const Vec3> submitted{};        ///< where points were submitted, if some have been moved since; else empty
+  Span<const Vec3> submitted{};      ///< where points were submitted, if some have been moved since; else empty
 
   /// Of point v, where errors are measured.
   const Vec3 &place(std::size_t v) const { return submitted.empty() ? points[v] : submitted[v]; }
