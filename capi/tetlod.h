@@ -433,7 +433,7 @@ TETLOD_API tetlod_status tetlod_estimate_memory(tetlod_context *context, uint64_
  * within the original's range. Where edges of the solid collapse (remesh_attempts 0) the volume changes by 1 % at most,
  * and solids in contact (or in each other by 0.001 of the diagonal) may cross: each is simplified, and bounded, alone.
  * Boundary vertices come first, then samples (each an original vertex with its value), then Steiner points; with a
- * target ratio, boundary vertices, then all others; where no edge collapses, all are in the original's order. */
+ * target ratio, boundary vertices, then all others; where no edge collapses, and none is moved, as in the original. */
 TETLOD_API tetlod_status tetlod_run(tetlod_context *context);
 
 /* Estimates the field error of the last result [4], at the original vertices and at samples_per_tet (0 to 100) random

@@ -7,6 +7,7 @@
 #include "least_change.hpp"
 #include "select_samples.hpp"
 #include "status.hpp"
+#include "untangle.hpp"
 #include "validate.hpp"
 
 namespace tetlod {
@@ -14,8 +15,9 @@ namespace tetlod {
 void Beginning::begin() {
   prepare();
   extract();
+  refuse_moves(original_, options_);
   if (original_.unequal_field > 0) tell_unequal_fields();
-  if (original_.moved_points > 0) tell_moves();
+  if (!original_.moves.empty()) tell_moves();
   budget_.sigma = options_.sigma;
   if (as_published(options_)) return sample();
   report_.least_change = least_change(original_.view);
@@ -34,7 +36,7 @@ void Beginning::tell_moves() const {
   if (!job_.log) return;
   job_.log(2,
            text("tets are turned over at the boundary: %lld points are moved, those on it by up to %s of the diagonal",
-                static_cast<long long>(original_.moved_points),
+                static_cast<long long>(original_.moves.size()),
                 number(original_.boundary_moved_by / original_.box.diagonal()).c_str())
                .c_str());
 }
@@ -49,14 +51,6 @@ double Beginning::bound() const {
 double Beginning::deviation_limit() const {
   if (options_.max_deviation == 0) return 0;
   return options_.max_deviation * original_.box.diagonal() - original_.boundary_moved_by;
-}
-
-void Beginning::refuse_moves() const {
-  if (deviation_limit() > 0 || options_.max_deviation == 0) return;
-  fail(Status::mesh_intersecting,
-       "tets are turned over at the boundary, of which vertices would have to be moved by %s of the diagonal "
-       "(max-deviation: %s)",
-       number(original_.boundary_moved_by / original_.box.diagonal()).c_str(), number(options_.max_deviation).c_str());
 }
 
 void Beginning::refuse_spread() const {
@@ -91,6 +85,7 @@ void Beginning::extract() {
   if (!report_.reused_tets) prepare_boundary(input_, options_, job_, original_, boundary_);
   prepared_.complete(input_, job_);
   result_.torn = original_.torn;
+  result_.moves = original_.moves;
   describe_input(input_, original_, report_);
   describe_extraction(boundary_, report_);
 }

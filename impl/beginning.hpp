@@ -16,10 +16,8 @@ class Beginning {
  protected:
   /// Of the error at what points became, so that it holds for each of them; 0: none.
   double bound() const;
-  /// Of the boundary from what untangle() left of the original's, so that it holds for that; 0: none.
+  /// Of the boundary from the original's as it was moved, so that it holds for the submitted one; 0: none.
   double deviation_limit() const;
-  /// Throws Status::mesh_intersecting where that has moved it farther already.
-  void refuse_moves() const;
   /// Throws Status::max_error where no value is so near to those of points that became one.
   void refuse_spread() const;
   void sample();

@@ -117,11 +117,11 @@ void find_stencil(const Input &input, const Options &options, Prepared &prepared
   const Fingerprint mesh = fingerprint_of_mesh(input, options, job);
   refuse_changed(mesh, result);
   Prepared fresh(job.memory);
-  const bool held = prepared.holds(mesh, input, options, job);
+  const bool held = prepared.holds(mesh, input, options, job) && prepared.original.moves == result.moves;
   if (!held) {
     Input bare = input;
-    bare.flags = {};  // which change nothing here, and may be wrong
-    prepare_with_boundary(bare, options, job, fresh.original, fresh.boundary);
+    bare.flags = {};  // which change nothing but moves, and may be wrong
+    prepare_with_boundary(bare, options, job, fresh.original, fresh.boundary, &result.moves);
   }
   Prepared &of = held ? prepared : fresh;
   if (of.original.torn != result.torn)

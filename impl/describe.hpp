@@ -20,7 +20,7 @@ inline void describe_input(const Input &input, const Original &original, Report 
   report.nonfinite_points = original.nonfinite_points;
   report.dropped_tets = original.dropped_tets;
   report.divided_tets = original.divided_tets;
-  report.moved_points = original.moved_points;
+  report.moved_points = std::int64_t(original.moves.size());
   report.scalar_min = original.scalar_min;
   report.scalar_max = original.scalar_max;
   report.keeps_some =

@@ -215,7 +215,8 @@ Outlook outlook_of(const Original &original, const Boundary &boundary, Span<cons
   const double first = std::max(double(budget.tets), std::min(of.tets, double(budget.enough)));
   const int rounds = rounds_of(options, report);
   of.has_rounds = rounds > 0;
-  const bool refines = options.max_error > 0 || !keeps_all(budget, report) || !collapses_edges(options, report);
+  const bool refines = options.max_error > 0 || !keeps_all(budget, report) || report.moved_points > 0 ||
+                       !collapses_edges(options, report);
   of.probes = refines ? double(expected_probes(original.view, enough_probes(first, rounds, true))) : 0;
   of.results_aside = weights_of_attempts(budget, options, report).empty() ? 0 : 1;
   return of;

@@ -15,6 +15,11 @@ inline double det(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &d) {
   return glm::dot(glm::cross(b - a, c - a), d - a);
 }
 
+inline double six_volume(Span<const Vec3> points, const Tet &t) {
+  const auto at = [&](std::size_t k) -> const Vec3 & { return points[std::size_t(t[k])]; };
+  return det(at(0), at(1), at(2), at(3));
+}
+
 /// Twice the area vector of a triangle.
 inline Vec3 area_vector(const Vec3 &a, const Vec3 &b, const Vec3 &c) { return glm::cross(b - a, c - a); }
 

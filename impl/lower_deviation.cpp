@@ -61,7 +61,6 @@ class DeviationLowering {
 
  private:
   const Vec3 &point(std::int32_t v) const { return mesh_.points[std::size_t(v)]; }
-  double volume6_of(const Tet &t) const { return det(point(t[0]), point(t[1]), point(t[2]), point(t[3])); }
   double shape2_of(const Tet &t) const { return shape2(point(t[0]), point(t[1]), point(t[2]), point(t[3])); }
 
   /// Of the largest distances, as many as may be served in a sweep; returns how many could be.
@@ -196,7 +195,7 @@ class DeviationLowering {
     change_.old_volume6 = 0;
     change_.least_shape2 = std::numeric_limits<double>::infinity();
     for (std::int32_t t : change_.tets) {
-      change_.old_volume6 += volume6_of(mesh_.tets[std::size_t(t)]);
+      change_.old_volume6 += six_volume(mesh_.points, mesh_.tets[std::size_t(t)]);
       change_.least_shape2 = std::min(change_.least_shape2, shape2_of(mesh_.tets[std::size_t(t)]));
     }
   }
@@ -212,12 +211,12 @@ class DeviationLowering {
   bool are_sound() const {
     const double least = std::max(flattest_part * flattest_part * change_.least_shape2, least_shape * least_shape);
     return std::all_of(change_.fresh_tets.begin(), change_.fresh_tets.end(),
-                       [&](const Tet &t) { return volume6_of(t) > 0 && shape2_of(t) > least; });
+                       [&](const Tet &t) { return six_volume(mesh_.points, t) > 0 && shape2_of(t) > least; });
   }
 
   bool keeps_volume() {
     change_.fresh_volume6 = 0;
-    for (const Tet &t : change_.fresh_tets) change_.fresh_volume6 += volume6_of(t);
+    for (const Tet &t : change_.fresh_tets) change_.fresh_volume6 += six_volume(mesh_.points, t);
     const double excess6 = excess6_ + change_.fresh_volume6 - change_.old_volume6;
     return std::abs(excess6) <= std::max(std::abs(excess6_), most_volume * volume6_);
   }

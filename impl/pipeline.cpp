@@ -30,7 +30,6 @@ class Pipeline : private Remeshing {
       fail(Status::backend_missing, "remesh is 0, and neither target-ratio nor max-error is set");
     begin();
     refuse_spread();
-    refuse_moves();
     if (options_.on_overlap == policy_error)
       refuse_intersections(prepared_.surface(job_), prepared_.topology(job_), tree(), input_.index_base, job_);
     if (as_published(options_)) {

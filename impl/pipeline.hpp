@@ -131,17 +131,26 @@ struct CarriedField {
   Array<std::int64_t> integers;  ///< of the others
 };
 
+/// Vertices that are elsewhere than where they were submitted, ascending.
+struct Move {
+  std::int32_t vertex;
+  Vec3 to;
+  bool operator==(const Move &other) const { return vertex == other.vertex && to == other.to; }
+};
+using Moves = Array<Move>;
+
 /// Pairs of parts of a mesh as submitted, each known by the lowest of its points, ascending.
 using Torn = Array<std::pair<std::int32_t, std::int32_t>>;
 
 struct Result {
-  explicit Result(Memory &memory) : mesh(memory), stencil(memory), torn(&memory) {}
+  explicit Result(Memory &memory) : mesh(memory), stencil(memory), torn(&memory), moves(&memory) {}
   TetMesh mesh;
   Stencil stencil;                   ///< of the mesh's points, numbered as the caller's; empty until a field needs it
   std::vector<CarriedField> fields;  ///< and those that steered beside the scalars
   Report report;
   Fingerprint original;  ///< of its points and tets
   Torn torn;             ///< parts of it that stayed apart, though they have faces in common
+  Moves moves;           ///< of it
 };
 
 /// Simplifies; throws Error. `result` is meant to be a fresh one: after a throw its contents mean nothing. Takes what

@@ -353,7 +353,8 @@ void prepare_original(const Input &input, const Options &options, Job &job, Orig
   measure(input, job, original);
 }
 
-void prepare_boundary(const Input &input, const Options &options, Job &job, Original &original, Boundary &boundary) {
+void prepare_boundary(const Input &input, const Options &options, Job &job, Original &original, Boundary &boundary,
+                      const Moves *moves) {
   extract_boundary(original.view, job, boundary, original.numbers());
   const bool are_dropped = !boundary.excluded.empty(), are_merged = original.merged_points > 0;
   if (are_dropped) drop_excluded(job, boundary, original);
@@ -361,17 +362,16 @@ void prepare_boundary(const Input &input, const Options &options, Job &job, Orig
     find_points_that_count(input, job, original);
     take_merged_values(input, job, original);
   }
-  if (are_dropped || are_merged) measure(input, job, original);
-  if (options.on_overlap != policy_repair) return;
-  make_conforming(job, boundary, original);
-  untangle(job, boundary, original);
-  if (original.moved_points > 0) measure(input, job, original);
+  const bool repairs = options.on_overlap == policy_repair;
+  if (repairs) make_moves(moves ? *moves : find_moves(original, boundary, job), job, boundary, original);
+  if (are_dropped || are_merged || !original.moves.empty()) measure(input, job, original);
+  if (repairs) make_conforming(job, boundary, original);
 }
 
-void prepare_with_boundary(const Input &input, const Options &options, Job &job, Original &original,
-                           Boundary &boundary) {
+void prepare_with_boundary(const Input &input, const Options &options, Job &job, Original &original, Boundary &boundary,
+                           const Moves *moves) {
   prepare_original(input, options, job, original);
-  prepare_boundary(input, options, job, original, boundary);
+  prepare_boundary(input, options, job, original, boundary, moves);
 }
 
 bool renew_values(const Input &input, Job &job, Original &original) {

@@ -31,10 +31,11 @@ struct Original {
         left(&memory),
         next_merged(&memory),
         counts(&memory),
-        torn(&memory) {}
+        torn(&memory),
+        moves(&memory) {}
   MeshView view;
   Array<Vec3> points;
-  Array<Vec3> moved;      ///< the view's, where untangle() has moved some; else empty
+  Array<Vec3> moved;      ///< the view's, where some have been moved; else empty
   Array<double> scalars;  ///< with those of the further fields that steer, and of merged points the middles
   Array<Tet> tets;
   Array<std::int32_t> tet_number;     ///< of each tet among the submitted ones; empty: none was dropped
@@ -50,8 +51,8 @@ struct Original {
   std::int64_t nonfinite_points = 0;  ///< without a finite value, ignored with their tets
   std::int64_t dropped_tets = 0;      ///< with such a point, or with a repeated vertex, as submitted or after merging
   std::int64_t divided_tets = 0;      ///< that others take the place of: make_conforming
-  std::int64_t moved_points = 0;      ///< by untangle()
-  double boundary_moved_by = 0;       ///< the farthest of them on the boundary
+  Moves moves;                        ///< where tets were turned over: find_moves()
+  double boundary_moved_by = 0;       ///< the farthest of these on the boundary
   std::int32_t index_base = 0;        ///< as submitted
   int exponent = 0;                   ///< the view's coordinates are the caller's divided by 2^exponent
   double scalar_min = 0, scalar_max = 0;     ///< over the vertices that tets of the view have
@@ -88,12 +89,14 @@ void check_count(const Input &input, const std::string &field, std::int64_t tupl
 void prepare_original(const Input &input, const Options &options, Job &job, Original &original);
 
 /// Then: extract_boundary. What it leaves out of the view, flat tets that hang on it and those given twice, is dropped,
-/// and points that no other tet has are none of the mesh any more. Where overlaps are repaired, make_conforming.
-void prepare_boundary(const Input &input, const Options &options, Job &job, Original &original, Boundary &boundary);
+/// and points that no other tet has are none of the mesh any more. Where overlaps are repaired, vertices
+/// are moved, these or find_moves(), and then make_conforming.
+void prepare_boundary(const Input &input, const Options &options, Job &job, Original &original, Boundary &boundary,
+                      const Moves *moves = nullptr);
 
 /// prepare_original and prepare_boundary.
-void prepare_with_boundary(const Input &input, const Options &options, Job &job, Original &original,
-                           Boundary &boundary);
+void prepare_with_boundary(const Input &input, const Options &options, Job &job, Original &original, Boundary &boundary,
+                           const Moves *moves = nullptr);
 
 /// The same as prepare_original of a mesh whose points, tets, flags and options are what they were, and other values.
 /// False: it takes prepare_original, because the values change what the mesh is, or are none.

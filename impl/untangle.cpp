@@ -5,8 +5,9 @@
 
 #include "face_sweep.hpp"
 #include "geometry.hpp"
-#include "numbered_tets.hpp"
+#include "random_place.hpp"
 #include "star_lists.hpp"
+#include "status.hpp"
 
 namespace tetlod {
 
@@ -26,9 +27,7 @@ constexpr double most_turned = 0.1;
 /// The number of an edge: of all that are run through as often either way the sum is none.
 std::uint64_t number_of_edge(std::int32_t from, std::int32_t to) {
   const auto [low, high] = std::minmax(from, to);
-  std::uint64_t number = (std::uint64_t(low) << 32 | std::uint32_t(high)) * 0x9e3779b97f4a7c15u;
-  number = (number ^ number >> 29) * 0xbf58476d1ce4e5b9u;
-  number ^= number >> 32;
+  const std::uint64_t number = scrambled(std::uint64_t(low) << 32 | std::uint32_t(high));
   return from < to ? number : -number;
 }
 
@@ -48,11 +47,6 @@ bool are_oriented(Span<const Triangle> triangles, Job &job) {
 bool is_even(const Tet &t, std::size_t corner) {
   const auto v = [&](int k) { return t[std::size_t(tet_face[corner][k])]; };
   return ((v(0) < v(1)) != (v(1) < v(2))) != (v(0) < v(2));
-}
-
-double volume6(Span<const Vec3> points, const Tet &t) {
-  const auto at = [&](std::size_t k) -> const Vec3 & { return points[std::size_t(t[k])]; };
-  return det(at(0), at(1), at(2), at(3));
 }
 
 /// Tets as their neighbours wind them: an even order of the corners is upright where most of the volume is.
@@ -90,7 +84,7 @@ class Uprights {
     for (std::size_t i = 0; i < part_.size(); i++) {
       job_.poll_at(i, 0.9);
       const auto t = std::size_t(part_[i]);
-      volume += winding_[t] * volume6(mesh_.points, mesh_.tets[t]);
+      volume += winding_[t] * six_volume(mesh_.points, mesh_.tets[t]);
       for (std::size_t k = 0; k < 4; k++)
         if (!wind_across(t, k)) return false;
     }
@@ -128,8 +122,9 @@ class Untangling {
         points_(before_.begin(), before_.end(), &job.memory),
         mobility_(points_.size(), 1.0, &job.memory),
         star_(Span<const Tet>(tets_), points_.size(), job),
-        is_near_(tets_.size(), 0, &job.memory),
-        moved_(points_.size(), 0, &job.memory) {
+        least_(tets_.size(), unknown, &job.memory),
+        is_due_(tets_.size(), 0, &job.memory),
+        moved_in_(points_.size(), 0, &job.memory) {
     for (const Triangle &triangle : boundary.triangles)
       for (const std::int32_t v : triangle) mobility_[std::size_t(v)] = inertia;
     for (std::size_t v = 0; v < original.flags.size(); v++)
@@ -138,97 +133,102 @@ class Untangling {
 
   /// False: that comes to no end.
   bool run() {
-    for (std::size_t t = 0; t < tets_.size(); t++) {
-      job_.poll_at(t, 0.9);
-      if (volume6(before_, tets_[t]) < 0) add(std::int32_t(t));
-    }
-    if (double(near_.size()) > most_turned * double(tets_.size())) return false;
-    for (int round = 0; round < most_rounds; round++) {
-      if (!any_straightened()) return true;
-      add_stars();
-    }
-    return false;
-  }
-
-  Array<Vec3> &points() { return points_; }
-  std::int64_t moved() const { return std::count(moved_.begin(), moved_.end(), 1); }
-  /// The farthest move, of all or on the boundary.
-  double distance(bool on_boundary) const {
-    double most = 0;
-    for (std::size_t v = 0; v < points_.size(); v++)
-      if (moved_[v] && (!on_boundary || mobility_[v] == inertia))
-        most = std::max(most, glm::distance(points_[v], before_[v]));
-    return most;
-  }
-
- private:
-  struct Near {
-    std::int32_t tet;
-    double least;  // six times the volume that it is to have
-  };
-
-  void add(std::int32_t t) {
-    if (is_near_[std::size_t(t)]) return;
-    is_near_[std::size_t(t)] = 1;
-    near_.push_back({t, least_volume_of(t)});
-  }
-
-  double least_volume_of(std::int32_t t) {
-    const double own = volume6(before_, tets_[std::size_t(t)]), usual = usual_volume_around(t);
-    return own < 0 ? least_volume * usual : std::clamp(own, hardly_any * usual, least_volume * usual);
-  }
-
-  /// The median.
-  double usual_volume_around(std::int32_t t) {
-    around_.clear();
-    for (const std::int32_t v : tets_[std::size_t(t)])
-      for (const std::int32_t other : star_.of(v))
-        around_.push_back(std::abs(volume6(before_, tets_[std::size_t(other)])));
-    const auto middle = around_.begin() + std::ptrdiff_t(around_.size() / 2);
-    std::nth_element(around_.begin(), middle, around_.end());
-    return *middle;
-  }
-
-  /// One after another, so that each sees what became of those before.
-  bool any_straightened() {
-    bool any = false;
-    for (std::size_t i = 0; i < near_.size(); i++) {
-      job_.poll_at(i, 0.9);
-      any |= straighten(near_[i]);
-    }
-    return any;
-  }
-
-  /// Gives a tet that is flatter than half of what it is to have that volume, by the least moves, as its volume changes
-  /// with them at first.
-  bool straighten(const Near &near) {
-    const Tet &t = tets_[std::size_t(near.tet)];
-    const auto at = [&](std::size_t k) -> Vec3 & { return points_[std::size_t(t[k])]; };
-    const double missing = near.least - volume6(points_, t);
-    if (missing <= 0.5 * near.least) return false;
-    Vec3 change[4];  // of the volume, by a move
-    for (std::size_t k = 0; k < 4; k++) {
-      const int *face = tet_face[k];
-      change[k] = -area_vector(at(std::size_t(face[0])), at(std::size_t(face[1])), at(std::size_t(face[2])));
-    }
-    double all = 0;
-    for (std::size_t k = 0; k < 4; k++) all += mobility_[std::size_t(t[k])] * length2(change[k]);
-    if (!(all > 0)) return true;
-    for (std::size_t k = 0; k < 4; k++) {
-      const auto v = std::size_t(t[k]);
-      if (mobility_[v] == 0) continue;
-      at(k) += missing * mobility_[v] / all * change[k];
-      moved_[v] = 1;
-      shaken_.push_back(t[k]);
-    }
+    if (!find_turned()) return false;
+    for (round_ = 1; !due_.empty(); round_++)
+      if (round_ > most_rounds || !straighten_those_due()) return false;
     return true;
   }
 
-  /// Of the vertices that were moved.
-  void add_stars() {
+  Moves moves() const {
+    Moves moves(&job_.memory);
+    for (std::size_t v = 0; v < points_.size(); v++) {
+      job_.poll_at(v, 0.9);
+      if (moved_in_[v] > 0 && points_[v] != before_[v]) moves.push_back({std::int32_t(v), points_[v]});
+    }
+    return moves;
+  }
+
+ private:
+  static constexpr double unknown = -1;
+
+  /// False: there are very many.
+  bool find_turned() {
+    const auto most = std::size_t(most_turned * double(tets_.size()));
+    for (std::size_t t = 0; t < tets_.size() && due_.size() <= most; t++) {
+      job_.poll_at(t, 0.9);
+      if (six_volume(before_, tets_[t]) < 0) due_.push_back(std::int32_t(t));
+    }
+    return due_.size() <= most;
+  }
+
+  /// One after another, so that each sees what became of those before. Due afterwards are those of moved vertices.
+  bool straighten_those_due() {
+    for (std::size_t i = 0; i < due_.size(); i++) {
+      job_.poll_at(i, 0.9);
+      is_due_[std::size_t(due_[i])] = 0;
+      if (!straighten(due_[i])) return false;
+    }
+    due_.clear();
+    std::size_t seen = 0;
     for (const std::int32_t v : shaken_)
-      for (const std::int32_t t : star_.of(v)) add(t);
+      for (const std::int32_t t : star_.of(v)) {
+        job_.poll_at(seen++, 0.9);
+        if (!is_due_[std::size_t(t)]) due_.push_back(t);
+        is_due_[std::size_t(t)] = 1;
+      }
     shaken_.clear();
+    return true;
+  }
+
+  /// Gives a tet that has less than half of the volume that it is to have that volume, by the least moves, as far as it
+  /// changes with them in proportion. False: nothing of it may be moved.
+  bool straighten(std::int32_t tet) {
+    const Tet &t = tets_[std::size_t(tet)];
+    const auto at = [&](std::size_t k) -> Vec3 & { return points_[std::size_t(t[k])]; };
+    const double least = least_of(tet), missing = least - six_volume(points_, t);
+    if (missing <= 0.5 * least) return true;
+    Vec3 change[4];  // of the volume, by a move
+    double all = 0;
+    for (std::size_t k = 0; k < 4; k++) {
+      const int *face = tet_face[k];
+      change[k] = -area_vector(at(std::size_t(face[0])), at(std::size_t(face[1])), at(std::size_t(face[2])));
+      all += mobility_[std::size_t(t[k])] * length2(change[k]);
+    }
+    if (!(all > 0)) return false;
+    for (std::size_t k = 0; k < 4; k++) move(t[k], missing / all * change[k]);
+    return true;
+  }
+
+  void move(std::int32_t v, const Vec3 &by) {
+    const double mobility = mobility_[std::size_t(v)];
+    if (mobility == 0) return;
+    points_[std::size_t(v)] += mobility * by;
+    if (moved_in_[std::size_t(v)] != round_) shaken_.push_back(v);
+    moved_in_[std::size_t(v)] = round_;
+  }
+
+  /// Six times the volume that it is to have.
+  double least_of(std::int32_t t) {
+    double &least = least_[std::size_t(t)];
+    if (least == unknown) {
+      const double own = six_volume(before_, tets_[std::size_t(t)]), usual = usual_around(t);
+      least = own < 0 ? least_volume * usual : std::clamp(own, hardly_any * usual, least_volume * usual);
+    }
+    return least;
+  }
+
+  /// The median, of some: of what vertices of very many tets have.
+  double usual_around(std::int32_t t) {
+    constexpr std::size_t some = 64;
+    around_.clear();
+    for (const std::int32_t v : tets_[std::size_t(t)]) {
+      const Span<const std::int32_t> star = star_.of(v);
+      for (std::size_t i = 0; i < std::min(star.size(), some); i++)
+        around_.push_back(std::abs(six_volume(before_, tets_[std::size_t(star[i])])));
+    }
+    const auto middle = around_.begin() + std::ptrdiff_t(around_.size() / 2);
+    std::nth_element(around_.begin(), middle, around_.end());
+    return *middle;
   }
 
   Job &job_;
@@ -237,31 +237,62 @@ class Untangling {
   Array<Vec3> points_;
   Array<double> mobility_;
   StarLists star_;
-  Array<std::uint8_t> is_near_, moved_;
-  Array<Near> near_{&job_.memory};
-  Array<std::int32_t> shaken_{&job_.memory};
+  Array<double> least_;
+  Array<std::uint8_t> is_due_;
+  Array<int> moved_in_;  // of each vertex, the last round in which it was; 0: in none
+  int round_ = 0;
+  Array<std::int32_t> due_{&job_.memory}, shaken_{&job_.memory};  // tets; vertices, in this round
   Array<double> around_{&job_.memory};
 };
 
+bool are_short(const Moves &moves, const Original &original) {
+  return std::all_of(moves.begin(), moves.end(), [&](const Move &move) {
+    return glm::distance(move.to, original.view.points[std::size_t(move.vertex)]) <= farthest * original.box.diagonal();
+  });
+}
+
 }  // namespace
 
-void untangle(Job &job, Boundary &boundary, Original &original) {
-  if (are_oriented(boundary.triangles, job)) return;
+Moves find_moves(const Original &original, const Boundary &boundary, Job &job) {
+  const Moves none(&job.memory);
+  if (are_oriented(boundary.triangles, job)) return none;
   Array<Tet> upright = Uprights(original.view, job).find();
-  if (upright.empty()) return;
+  if (upright.empty()) return none;
   Untangling untangling(original, boundary, std::move(upright), job);
-  if (!untangling.run() || untangling.distance(false) > farthest * original.box.diagonal()) return;
-  NumberedTets tets(original.view, original.tet_number, job.memory);
-  tets.points = untangling.points();
-  if (!tets.find_boundary(job) || !are_oriented(tets.boundary.triangles, job)) return;
-  tets.boundary.flat_tets += boundary.flat_tets;
-  tets.boundary.duplicate_tets += boundary.duplicate_tets;
-  boundary = std::move(tets.boundary);
-  original.moved_points = untangling.moved();
-  original.boundary_moved_by = untangling.distance(true);
+  if (!untangling.run()) return none;
+  Moves moves = untangling.moves();
+  return are_short(moves, original) ? std::move(moves) : none;
+}
+
+void make_moves(const Moves &moves, Job &job, Boundary &boundary, Original &original) {
+  if (moves.empty()) return;
+  Array<Vec3> points(original.view.points.begin(), original.view.points.end(), &job.memory);
+  for (const Move &move : moves) points[std::size_t(move.vertex)] = move.to;
+  MeshView moved = original.view;
+  moved.points = points;
+  Boundary of_moved(job.memory);
+  extract_boundary(moved, job, of_moved);
+  if (!of_moved.excluded.empty() || !are_oriented(of_moved.triangles, job)) return;
+  boundary.triangles = std::move(of_moved.triangles);
+  boundary.tet_of = std::move(of_moved.tet_of);
+  original.moves.assign(moves.begin(), moves.end());
+  original.moved = std::move(points);
   original.view.submitted = original.view.points;
-  original.moved = std::move(untangling.points());
   original.view.points = original.moved;
+  for (const Triangle &triangle : boundary.triangles)
+    for (const std::int32_t v : triangle)
+      original.boundary_moved_by =
+          std::max(original.boundary_moved_by,
+                   glm::distance(original.moved[std::size_t(v)], original.view.submitted[std::size_t(v)]));
+}
+
+void refuse_moves(const Original &original, const Options &options) {
+  const double moved_by = original.boundary_moved_by / original.box.diagonal();
+  if (options.max_deviation == 0 || options.max_deviation > moved_by) return;
+  fail(Status::mesh_intersecting,
+       "tets are turned over at the boundary, of which vertices would have to be moved by %s of the diagonal "
+       "(max-deviation: %s)",
+       number(moved_by).c_str(), number(options.max_deviation).c_str());
 }
 
 }  // namespace tetlod

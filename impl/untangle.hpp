@@ -5,10 +5,16 @@
 
 namespace tetlod {
 
-/// Moves vertices of tets that are turned over, and of those beside them, each time as little as makes one of them
-/// upright; nearly all of it inside, and none that the host has flagged. Where the boundary's triangles agree which
-/// side is out nothing is moved; nor where that comes to no end, or goes farther than 0.02 of the diagonal. boundary:
-/// as extract_boundary() leaves it, with nothing excluded.
-void untangle(Job &job, Boundary &boundary, Original &original);
+/// Vertices of tets that are turned over, and of those beside them, each time as little as makes one of these upright;
+/// nearly all of it inside, and none that the host has flagged. Where the boundary's triangles agree which side is out
+/// there are none; nor where that comes to no end, or goes farther than 0.02 of the diagonal. boundary: as
+/// extract_boundary() leaves it, with nothing excluded.
+Moves find_moves(const Original &original, const Boundary &boundary, Job &job);
+
+/// Unless triangles of the boundary do not agree then.
+void make_moves(const Moves &moves, Job &job, Boundary &boundary, Original &original);
+
+/// Throws Status::mesh_intersecting where the boundary has been moved as far as max-deviation, if that is set.
+void refuse_moves(const Original &original, const Options &options);
 
 }  // namespace tetlod

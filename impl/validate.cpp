@@ -13,6 +13,7 @@
 #include "prepare.hpp"
 #include "surface_distance.hpp"
 #include "surface_topology.hpp"
+#include "untangle.hpp"
 #include "whole_arrays.hpp"
 
 namespace tetlod {
@@ -261,6 +262,7 @@ Error verdict_on(const Input &input, const Options &options, const Defects &defe
     Original original(job.memory);
     Boundary boundary(job.memory);
     prepare_with_boundary(input, options, job, original, boundary);
+    refuse_moves(original, options);
     Surface surface(job.memory);
     make_surface(original.view, boundary.triangles, job, surface);
     SurfaceTopology topology(job.memory);

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "carried_arrays.hpp"
+#include "middles.hpp"
 #include "steering_field.hpp"
 
 namespace tetlod_vtk {
@@ -93,13 +94,17 @@ void submit_other(tetlod::Context &context, const CarriedArray &other) {
 Original original_of(vtkUnstructuredGrid *input, vtkInformation *steering, const std::vector<WeightedArray> &further,
                      vtkInformation *flags, std::vector<std::string> &notes) {
   Original original;
-  original.grid = input;
   if (input->GetPoints() == nullptr) throw std::runtime_error("the grid has no points");
   require_tuples(*input->GetPointData(), input->GetNumberOfPoints(), "points");
   require_tuples(*input->GetCellData(), input->GetNumberOfCells(), "cells");
+  original.grid = cut_around_middles(input, notes);
   vtkDataArray *field = steering_array(*original.grid, steering);
   original.flags = flags_array(*original.grid, flags);
-  original.tets = tets_of(*original.grid, notes);  // first: VTK's triangulation may move what it shares with the grid
+  if (original.flags != nullptr)
+    for (vtkIdType v = input->GetNumberOfPoints(); v < original.grid->GetNumberOfPoints(); v++)
+      original.flags->SetValue(v, 0);
+  original.tets = tets_of(*original.grid, notes);
+  original.is_split = original.tets.cells != nullptr || original.grid != input;
   original.values = lend_reals(field);
   original.points = lend_points(original.grid->GetPoints()->GetData());
   original.arrays.points = original.grid->GetPoints()->GetData();
@@ -131,7 +136,7 @@ void run(tetlod::Context &context, const Original &original) {
     context.run();
   } catch (const tetlod::Error &error) {
     const std::string message = error.what();
-    if (original.tets.cells == nullptr || message.find("tet ") == std::string::npos) throw;
+    if (!original.is_split || message.find("tet ") == std::string::npos) throw;
     throw tetlod::Error(error.status(), message + " (of the tets that the grid's solid cells are split into)");
   }
 }

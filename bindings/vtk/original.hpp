@@ -18,10 +18,11 @@ class vtkInformation;
 namespace tetlod_vtk {
 
 struct Original {
-  vtkSmartPointer<vtkUnstructuredGrid> grid;
-  LentArray points;  // without a keeper: the grid's are separate x, y and z
+  vtkSmartPointer<vtkUnstructuredGrid> grid;  // the input, or one with its polyhedra cut
+  LentArray points;                           // without a keeper: the grid's are separate x, y and z
   LentArray values;
   Tets tets;
+  bool is_split = false;                        // tets are not the input's cells
   vtkSmartPointer<vtkUnsignedCharArray> flags;  // may be null
   OriginalArrays arrays;
 };

@@ -3,8 +3,9 @@
  * @brief   makes a tetrahedral mesh that carries a scalar field smaller
  *
  * vtkTetlodSimplify is tetlod as a filter. Its input is an unstructured grid; cells that are not tets are split:
- * hexahedra, voxels, wedges and pyramids so that neighbours fit, quadratic tets in eight where all cells are such,
- * other curved cells by their corners. Cells without a volume and ghost cells are left out. Polyhedra are an error.
+ * hexahedra, voxels, wedges, pyramids, prisms of five and six sides and polyhedra so that neighbours fit, quadratic
+ * tets in eight where all cells are such, other curved cells by their corners. Cells without a volume and ghost cells
+ * are left out.
  * Its output is a grid of linear tets with points in double precision and 32 bit connectivity: a valid mesh with the
  * topology of the original's boundary (see tetlod.h), the same bytes for any number of threads and the same as the
  * command line tool writes.

@@ -64,7 +64,8 @@ INSTANTIATE_TEST_SUITE_P(Kinds, Splits,
                          testing::Values(Split{Kind::tet, 6, 6, 2}, Split{Kind::hexahedron, 5, 6, 2},
                                          Split{Kind::voxel, 5, 6, 2}, Split{Kind::wedge, 6, 6, 2},
                                          Split{Kind::pyramid, 12, 12, 2}, Split{Kind::quadratic_tet, 48, 48, 8},
-                                         Split{Kind::quadratic_hexahedron, 5, 6, 2}));
+                                         Split{Kind::quadratic_hexahedron, 5, 6, 2},
+                                         Split{Kind::polyhedron, 12, 12, 2}));
 
 TEST_F(Files, FloatsAndIntegersOfEitherWidth) {
   for (const char *real : {"float", "double"}) {

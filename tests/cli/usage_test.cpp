@@ -307,14 +307,13 @@ TEST_F(Usage, NamesOfComponentsThatXmlCannotHave) {
 }
 
 TEST_F(Usage, BadMeshes) {
-  Cube index, polyhedra, hexahedra_index;
-  index.with_bad_index = hexahedra_index.with_bad_index = true;
-  polyhedra.kind = Kind::polyhedron;
-  hexahedra_index.kind = Kind::hexahedron;
-  expect_failure(run_on(index), 1, "343");
-  expect_failure(run_on(hexahedra_index), 1, "343");
-  expect_failure(run_on(polyhedra), 1, "olyhedron");
-  expect_only_input();
+  for (const Kind kind : {Kind::tet, Kind::hexahedron, Kind::polyhedron}) {
+    Cube cube;
+    cube.kind = kind;
+    cube.with_bad_index = true;
+    expect_failure(run_on(cube), 1, "343");
+    expect_only_input();
+  }
 }
 
 // VTK reads none from text: 0, 1, 2, 3 and nan are in base 64, after their size.

@@ -1,5 +1,7 @@
 // Meshes with tets that are turned over at the boundary: simplified like others, and what is told is true at the places
 // that were submitted.
+#include "carry_fields.hpp"
+#include "validate.hpp"
 #include "whole_run.hpp"
 
 namespace tetlod {
@@ -22,6 +24,11 @@ class UntangledRuns : public WholeRun {
     return cube;
   }
   static constexpr double a_little = 0.01;
+
+  Status verdict(const Mesh &original) {
+    const Input input = input_of(original);
+    return verdict_on(input, options, find_defects(input, options, host.job), host.job).status();
+  }
 };
 
 TEST_F(UntangledRuns, AreSoundInEachWay) {
@@ -78,6 +85,9 @@ TEST_F(UntangledRuns, TheDeviationHasTheMovesInIt) {
   }
   options.max_deviation = 1e-4;  // the moves alone are more
   EXPECT_EQ(status(original), Status::mesh_intersecting);
+  EXPECT_EQ(verdict(original), Status::mesh_intersecting);
+  options.max_deviation = 0.03;
+  EXPECT_EQ(verdict(original), Status::ok);
 }
 
 TEST_F(UntangledRuns, AreRefusedWhereTheyGoTooFar) { EXPECT_EQ(status(tangled(0.4)), Status::mesh_intersecting); }
@@ -96,6 +106,62 @@ TEST_F(UntangledRuns, ALaterStepTakesTheMovesOver) {
     simplify(step);
     EXPECT_EQ(again.report.hash, report().hash);
     EXPECT_EQ(again.report.max_error, report().max_error);
+  }
+}
+
+/// Which moves are made depends on flags, and a stencil is of those that the run made.
+TEST_F(UntangledRuns, AStencilIsThatOfTheRun) {
+  const Mesh original = tangled(a_little);
+  options.target_ratio = 0.3;
+  std::vector<std::uint8_t> flags(original.points.size(), 0), others = flags;
+  for (std::size_t v = 0; v < flags.size(); v++) flags[v] = original.points[v].y < 0 ? keep_vertex : 0;
+  Input input = input_of(original);
+  input.flags = strided(flags.data(), flags.size(), 1, 1, ElementType::uint8);
+  Input with_field = input;
+  with_field.fields.push_back({"field", Association::point, input.scalars});
+  run(with_field, options, worker, host.job, result);
+  const Stencil stencil = std::move(result.stencil);
+  for (const std::vector<std::uint8_t> &later : {flags, others}) {
+    input.flags = strided(later.data(), later.size(), 1, 1, ElementType::uint8);
+    for (const bool is_prepared : {false, true}) {
+      Prepared prepared(host.memory);
+      if (is_prepared) estimate_memory(input, options, prepared, host.job);
+      result.stencil = Stencil(host.memory);
+      find_stencil(input, options, prepared, host.job, result);
+      EXPECT_EQ(result.stencil.ids, stencil.ids);
+      EXPECT_EQ(result.stencil.weights, stencil.weights);
+    }
+  }
+}
+
+TEST_F(UntangledRuns, MemoryIsEstimatedLikeThatOfOthers) {
+  const Mesh original = tangled(a_little);
+  for (const double ratio : {1.0, 0.3}) {
+    options.target_ratio = ratio;
+    Prepared prepared(host.memory);
+    const auto estimate = double(estimate_memory(input_of(original), options, prepared, host.job));
+    prepared.forget(host.memory);
+    result = Result(host.memory);
+    host.memory.reset_peak();
+    run(input_of(original), options, worker, prepared, host.job, result);
+    EXPECT_LE(double(report().peak_bytes), 1.5 * estimate);
+    EXPECT_LE(estimate, 1.5 * double(report().peak_bytes));
+  }
+}
+
+/// Two defects, each of which would hide the other.
+TEST_F(UntangledRuns, MeshesThatDoNotConformAreDividedToo) {
+  Mesh original = refined_cubes(4, [](const Cell &cell) { return cell == Cell{0, 0, 0} ? 1 : 0; });
+  set_scalars(original, waves);
+  for (Vec3 &p : original.points)
+    if (glm::distance(p, Vec3(0.5, 0.5, 1)) < 1e-9) p.z -= 0.25 + a_little;
+  for (const double ratio : {0.5, 0.2}) {
+    options.target_ratio = ratio;
+    simplify(original);
+    EXPECT_GT(report().moved_points, 0);
+    EXPECT_GT(report().divided_tets, 0);
+    EXPECT_EQ(report().components, 1);
+    EXPECT_EQ(facts_of(mesh().boundary).euler, 2);
   }
 }
 

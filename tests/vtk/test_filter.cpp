@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
+#include <vtkCellType.h>
 #include <vtkDoubleArray.h>
 #include <vtkErrorCode.h>
 #include <vtkInformation.h>
@@ -233,10 +234,12 @@ TEST_F(Filter, CellsThatAreNotTetsAreSplit) {
     EXPECT_EQ(filter->GetOutput()->GetCells()->IsHomogeneous(), 4);
   }
   expect_silence();
-  Cube polyhedra;
-  polyhedra.kind = Kind::polyhedron;
-  filter->SetInputData(cube_grid(polyhedra));
-  expect_failure("olyhedron", TETLOD_ERR_ARGUMENT);
+  const Grid points = cube_grid();
+  points->GetCellData()->Initialize();
+  const vtkIdType corners[] = {0, 1, 7, 49};
+  points->InsertNextCell(VTK_CONVEX_POINT_SET, 4, corners);
+  filter->SetInputData(points);
+  expect_failure("cannot be split into tets", TETLOD_ERR_ARGUMENT);
 }
 
 TEST_F(Filter, GhostCellsAreLeftOut) {
