@@ -7,6 +7,7 @@
 #include <vtkSmartPointer.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 
 namespace cli {
@@ -66,20 +67,29 @@ void for_each_corner(vtkUnstructuredGrid &grid, const Use &use) {
   }
 }
 
+// Each between the least and the largest of its values, which a sum may pass by rounding: what is constant stays so.
 vtkSmartPointer<vtkDataArray> means_of(vtkDataArray &of_cells, vtkUnstructuredGrid &grid) {
   const int components = of_cells.GetNumberOfComponents();
+  const auto points = std::size_t(grid.GetNumberOfPoints());
   auto means = vtkSmartPointer<vtkDoubleArray>::New();
   means->SetName(of_cells.GetName());
   means->SetNumberOfComponents(components);
   means->SetNumberOfTuples(grid.GetNumberOfPoints());
-  means->Fill(0);
-  double *const sums = means->GetPointer(0);
-  std::vector<double> cells(std::size_t(grid.GetNumberOfPoints()), 0);
+  std::vector<double> cells(points, 0);
   for_each_corner(grid, [&](vtkIdType, vtkIdType point) { cells[std::size_t(point)]++; });
-  for_each_corner(grid, [&](vtkIdType cell, vtkIdType point) {
-    for (int k = 0; k < components; k++)  // each a part: a sum may be more than a double holds
-      sums[point * components + k] += of_cells.GetComponent(cell, k) / cells[std::size_t(point)];
-  });
+  for (int k = 0; k < components; k++) {
+    std::vector<double> sum(points, 0), least(points, std::numeric_limits<double>::infinity()), most(points);
+    for (std::size_t v = 0; v < points; v++) most[v] = -least[v];
+    for_each_corner(grid, [&](vtkIdType cell, vtkIdType point) {
+      const auto v = std::size_t(point);
+      const double value = of_cells.GetComponent(cell, k);
+      sum[v] += value / cells[v];  // a part: the whole may be more than a double holds
+      least[v] = std::min(least[v], value);
+      most[v] = std::max(most[v], value);
+    });
+    for (std::size_t v = 0; v < points; v++)
+      means->SetComponent(vtkIdType(v), k, cells[v] > 0 ? std::min(std::max(sum[v], least[v]), most[v]) : 0);
+  }
   return means;
 }
 

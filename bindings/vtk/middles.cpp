@@ -2,13 +2,13 @@
 
 #include <vtkCellData.h>
 #include <vtkCellType.h>
-#include <vtkIdList.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -39,16 +39,12 @@ class Cutting {
     vtkNew<vtkPoints> room;
     room->SetDataType(from.GetPoints()->GetDataType());
     room->SetNumberOfPoints(points);
+    for (vtkIdType v = 0; v < points; v++) room->SetPoint(v, from.GetPoint(v));
     to_->SetPoints(room);
-    to_->GetPointData()->CopyAllOn();
-    to_->GetPointData()->InterpolateAllocate(from.GetPointData(), points);
+    to_->GetPointData()->DeepCopy(from.GetPointData());
     to_->GetCellData()->CopyAllOn();
     to_->GetCellData()->CopyAllocate(from.GetCellData(), cells);
     to_->Allocate(cells);
-    for (vtkIdType v = 0; v < points; v++) {
-      room->SetPoint(v, from.GetPoint(v));
-      to_->GetPointData()->CopyData(from.GetPointData(), v, v);
-    }
   }
 
   vtkSmartPointer<vtkUnstructuredGrid> cut() {
@@ -110,22 +106,33 @@ class Cutting {
     return found->second;
   }
 
-  // In the mean of points.
   vtkIdType add_middle(std::vector<vtkIdType> points) {
     std::sort(points.begin(), points.end());
     points.erase(std::unique(points.begin(), points.end()), points.end());
-    const double weight = 1 / static_cast<double>(points.size());
-    vtkNew<vtkIdList> ids;
-    std::array<double, 3> mean{};
-    for (const vtkIdType id : points) {
-      ids->InsertNextId(id);
-      const double *const p = from_.GetPoint(id);
-      for (std::size_t i = 0; i < 3; i++) mean[i] += weight * p[i];
+    double p[3];
+    for (int i = 0; i < 3; i++) p[i] = mean(*from_.GetPoints()->GetData(), points, i);
+    const vtkIdType middle = to_->GetPoints()->InsertNextPoint(p);
+    vtkPointData &data = *to_->GetPointData();
+    for (int i = 0; i < data.GetNumberOfArrays(); i++) {
+      vtkAbstractArray &array = *data.GetAbstractArray(i);
+      array.InsertNextTuple(points[0], &array);  // of what has no means
+      if (vtkDataArray *const numbers = data.GetArray(i); numbers != nullptr)
+        for (int k = 0; k < numbers->GetNumberOfComponents(); k++)
+          numbers->SetComponent(middle, k, mean(*numbers, points, k));
     }
-    std::vector<double> weights(points.size(), weight);
-    const vtkIdType middle = to_->GetPoints()->InsertNextPoint(mean.data());
-    to_->GetPointData()->InterpolatePoint(from_.GetPointData(), middle, ids, weights.data());
     return middle;
+  }
+
+  // Between the least and the largest of the values, which the sum may pass by rounding: what is constant stays so.
+  static double mean(vtkDataArray &array, const std::vector<vtkIdType> &points, int component) {
+    double sum = 0, least = std::numeric_limits<double>::infinity(), most = -least;
+    for (const vtkIdType id : points) {
+      const double value = array.GetComponent(id, component);
+      sum += value / static_cast<double>(points.size());  // a part: the whole may be more than a double holds
+      least = std::min(least, value);
+      most = std::max(most, value);
+    }
+    return std::min(std::max(sum, least), most);
   }
 
   // Two quads of a cell that have a point between the same two others may both have the triangle of these: it is there

@@ -180,6 +180,10 @@ TEST_F(Cells, PolyhedraKeepTheirData) {
   flags->SetName("flags");
   for (vtkIdType v = 0; v < grid->GetNumberOfPoints(); v++) flags->InsertNextValue(TETLOD_FLAG_KEEP);
   grid->GetPointData()->AddArray(flags);
+  vtkNew<vtkDoubleArray> constant;
+  constant->SetName("constant");
+  for (vtkIdType v = 0; v < grid->GetNumberOfPoints(); v++) constant->InsertNextValue(0.1);
+  grid->GetPointData()->AddArray(constant);
   filter->SetInputData(grid);
   filter->SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "flags");
   filter->SetTargetRatio(0.9);
@@ -196,6 +200,7 @@ TEST_F(Cells, PolyhedraKeepTheirData) {
   for (vtkIdType v = 0; v < out.GetNumberOfPoints(); v++) {
     const double *const p = out.GetPoint(v);
     EXPECT_NEAR(out.GetPointData()->GetScalars()->GetTuple1(v), p[0] + 2 * p[1] + 3 * p[2], 1e-6);
+    EXPECT_EQ(out.GetPointData()->GetArray("constant")->GetTuple1(v), 0.1);
   }
 }
 

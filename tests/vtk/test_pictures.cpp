@@ -64,6 +64,13 @@ TEST(Scale, AConstantFieldHasATick) {
   EXPECT_EQ(Scale({4, 4, false}).share(4), 0.5);
 }
 
+TEST(Scale, AFieldThatIsConstantButForRoundingHasATick) {
+  for (const double value : {0.2, -0.2, 1e300, 1e-300}) {
+    const double next = std::nextafter(value, 2 * std::abs(value));
+    EXPECT_EQ(ticks_of({value, next, false}), std::vector<double>{value});
+  }
+}
+
 TEST(Scale, NumbersAreShort) {
   EXPECT_EQ(number_text(0.000012), "1.2e-5");
   EXPECT_EQ(number_text(3.314e-7), "3.314e-7");

@@ -33,7 +33,8 @@ double nice_step(double raw) {
 
 std::vector<double> linear_ticks(const Scale &scale) {
   std::vector<double> ticks;
-  if (!(scale.high > scale.low)) return {scale.low};
+  constexpr double told_apart = 1e-9;  // of the larger end: ticks have four digits
+  if (!(scale.high - scale.low > told_apart * std::max(std::abs(scale.low), std::abs(scale.high)))) return {scale.low};
   const double step = nice_step((scale.high - scale.low) / 5);
   for (double k = std::ceil(scale.low / step - 1e-9); k * step <= scale.high * (1 + 1e-12) + 1e-9 * step; k++)
     ticks.push_back(k == 0 ? 0.0 : k * step);
