@@ -15,8 +15,10 @@ namespace {
 
 /// Of the diagonal: so far off a boundary would be taken for another.
 constexpr double farthest = 0.02;
-/// What a vertex of the boundary moves, of one inside.
+/// What a vertex of the boundary moves, of one inside, in so many rounds; in later ones, which would come to no end, as
+/// much.
 constexpr double inertia = 0.1;
+constexpr int rounds_with_inertia = 10;
 /// Of the volume that is usual around it, what a tet that was turned over gets, and what none is flattened below; and
 /// what one that was flatter gets, so that it does not turn.
 constexpr double least_volume = 0.02, hardly_any = 1e-6;
@@ -192,17 +194,21 @@ class Untangling {
     for (std::size_t k = 0; k < 4; k++) {
       const int *face = tet_face[k];
       change[k] = -area_vector(at(std::size_t(face[0])), at(std::size_t(face[1])), at(std::size_t(face[2])));
-      all += mobility_[std::size_t(t[k])] * length2(change[k]);
+      all += mobility(t[k]) * length2(change[k]);
     }
     if (!(all > 0)) return false;
     for (std::size_t k = 0; k < 4; k++) move(t[k], missing / all * change[k]);
     return true;
   }
 
-  void move(std::int32_t v, const Vec3 &by) {
+  double mobility(std::int32_t v) const {
     const double mobility = mobility_[std::size_t(v)];
-    if (mobility == 0) return;
-    points_[std::size_t(v)] += mobility * by;
+    return mobility > 0 && round_ > rounds_with_inertia ? 1 : mobility;
+  }
+
+  void move(std::int32_t v, const Vec3 &by) {
+    if (mobility(v) == 0) return;
+    points_[std::size_t(v)] += mobility(v) * by;
     if (moved_in_[std::size_t(v)] != round_) shaken_.push_back(v);
     moved_in_[std::size_t(v)] = round_;
   }
