@@ -12,7 +12,10 @@ namespace {
 class HangingVertices {
  public:
   HangingVertices(const MeshView &mesh, const TriangleCorners &corners, Job &job)
-      : mesh_(mesh), corners_(corners), job_(job), rounding_(single_rounding_of(mesh.points, corners.triangles())) {}
+      : mesh_(mesh),
+        corners_(corners),
+        job_(job),
+        rounding_(rounding_of_six_digits(mesh.points, corners.triangles())) {}
 
   Array<HangingVertex> find() const {
     Array<HangingVertex> found(&job_.memory);

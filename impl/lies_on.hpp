@@ -8,13 +8,13 @@
 
 namespace tetlod {
 
-/// Of the corners of the triangles, whose coordinates may be of single precision.
-inline double single_rounding_of(Span<const Vec3> points, Span<const Triangle> triangles) {
+/// Of the corners of the triangles, whose coordinates may have six digits, as they mostly do in text.
+inline double rounding_of_six_digits(Span<const Vec3> points, Span<const Triangle> triangles) {
   double largest = 0;
   for (const Triangle &t : triangles)
     for (const std::int32_t v : t)
       for (int k = 0; k < 3; k++) largest = std::max(largest, std::abs(points[std::size_t(v)][k]));
-  return 1e-7 * largest;
+  return 1e-5 * largest;
 }
 
 /// Whether the tip of the shorter of two ways lies on the longer.

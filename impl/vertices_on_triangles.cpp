@@ -22,7 +22,7 @@ class VerticesOnTriangles {
         triangles_(triangles),
         job_(job),
         tree_(points, triangles, job),
-        rounding_(single_rounding_of(points, triangles)) {}
+        rounding_(rounding_of_six_digits(points, triangles)) {}
 
   Array<VertexOnTriangle> find() const {
     job_.poll(0.9);  // of what is cancelled parts of the tree are missing
