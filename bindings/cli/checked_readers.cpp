@@ -5,6 +5,7 @@
 #include <vtkObjectFactory.h>
 #include <vtkXMLDataElement.h>
 
+#include <algorithm>
 #include <cstring>
 #include <string>
 
@@ -63,6 +64,24 @@ bool same_kind(vtkAbstractArray *a, vtkAbstractArray *b) {
          (holds_integers(a) && holds_integers(b) && a->GetDataTypeSize() == b->GetDataTypeSize());
 }
 
+// Of each cell that has some: how many, and of each how many points, and these; up to the cell's end.
+bool are_faces(vtkDataArray &faces, vtkDataArray &ends) {
+  vtkIdType at = 0;
+  const auto next = [&](vtkIdType end) { return at < end ? static_cast<vtkIdType>(faces.GetComponent(at++, 0)) : -1; };
+  for (vtkIdType c = 0; c < ends.GetNumberOfTuples(); c++) {
+    const auto end = static_cast<vtkIdType>(ends.GetComponent(c, 0));
+    if (end < 0) continue;
+    if (end <= at) return false;
+    for (vtkIdType left = next(end); left > 0; left--) {
+      const vtkIdType points = next(end);
+      if (points < 0 || points > end - at) return false;
+      at += points;
+    }
+    if (at != end) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 vtkStandardNewMacro(CheckedReader);
@@ -81,6 +100,35 @@ int CheckedReader::ReadPiece(vtkXMLDataElement *piece) {
     return 0;
   }
   return vtkXMLUnstructuredGridReader::ReadPiece(piece);
+}
+
+int CheckedReader::ReadPieceData() {
+  if (!has_broken_faces()) return vtkXMLUnstructuredGridReader::ReadPieceData();
+  vtkErrorMacro(<< "the faces of polyhedra are broken");
+  return 0;
+}
+
+bool CheckedReader::has_broken_faces() {
+  vtkXMLDataElement *const cells = this->CellElements[this->Piece];
+  vtkXMLDataElement *const of_faces = this->FindDataArrayWithName(cells, "faces");
+  vtkXMLDataElement *const of_ends = this->FindDataArrayWithName(cells, "faceoffsets");
+  if (of_faces == nullptr || of_ends == nullptr) return false;
+  const auto ends = values_of(of_ends, this->GetNumberOfCellsInPiece(this->Piece));
+  if (ends == nullptr) return true;
+  vtkIdType length = 0;
+  for (vtkIdType c = 0; c < ends->GetNumberOfTuples(); c++)
+    length = std::max(length, static_cast<vtkIdType>(ends->GetComponent(c, 0)));
+  const auto faces = values_of(of_faces, length);
+  return faces == nullptr || !are_faces(*faces, *ends);
+}
+
+// Null: there are not so many.
+vtkSmartPointer<vtkDataArray> CheckedReader::values_of(vtkXMLDataElement *array, vtkIdType count) {
+  const auto all = vtk::TakeSmartPointer(this->CreateArray(array));
+  const vtkSmartPointer<vtkDataArray> values = vtkDataArray::SafeDownCast(all);
+  if (values == nullptr || values->GetNumberOfComponents() != 1) return nullptr;
+  values->SetNumberOfTuples(count);
+  return count == 0 || this->ReadArrayValues(array, 0, values, 0, count) != 0 ? values : nullptr;
 }
 
 int CheckedPartsReader::ReadPrimaryElement(vtkXMLDataElement *primary) {

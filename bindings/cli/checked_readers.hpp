@@ -1,6 +1,8 @@
 // VTK's readers of XML, where they take on trust what a piece says of its counts and arrays.
 #pragma once
 
+#include <vtkDataArray.h>
+#include <vtkSmartPointer.h>
 #include <vtkXMLPUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
@@ -16,6 +18,11 @@ class CheckedReader : public vtkXMLUnstructuredGridReader {
   CheckedReader() = default;
   ~CheckedReader() override = default;
   int ReadPiece(vtkXMLDataElement *piece) override;
+  int ReadPieceData() override;
+
+ private:
+  bool has_broken_faces();
+  vtkSmartPointer<vtkDataArray> values_of(vtkXMLDataElement *array, vtkIdType count);
 };
 
 class CheckedPartsReader : public vtkXMLPUnstructuredGridReader {

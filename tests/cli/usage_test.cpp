@@ -340,6 +340,33 @@ TEST_F(Usage, AValueThatIsNone) {
   EXPECT_TRUE(std::filesystem::exists(folder / "pictures/report.html"));
 }
 
+// Of one cell: how many, and of each how many points, and these; and where the next cell's begin.
+TEST_F(Usage, FacesThatAreBroken) {
+  const auto run_with = [&](const std::string &faces, const std::string &end) {
+    std::ofstream(folder / "in.vtu") << R"(<VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian">
+<UnstructuredGrid><Piece NumberOfPoints="4" NumberOfCells="1">
+<PointData Scalars="heat"><DataArray type="Float64" Name="heat" format="ascii">0 1 2 3</DataArray></PointData><Points>
+<DataArray type="Float64" NumberOfComponents="3" format="ascii">0 0 0 1 0 0 0 1 0 0 0 1</DataArray></Points>
+<Cells><DataArray type="Int64" Name="connectivity" format="ascii">0 1 2 3</DataArray>
+<DataArray type="Int64" Name="offsets" format="ascii">4</DataArray>
+<DataArray type="UInt8" Name="types" format="ascii">42</DataArray>
+<DataArray type="Int64" Name="faces" format="ascii">)"
+                                     << faces
+                                     << R"(</DataArray><DataArray type="Int64" Name="faceoffsets" format="ascii">)"
+                                     << end << "</DataArray></Cells></Piece></UnstructuredGrid></VTKFile>";
+    return run_tool({folder / "in.vtu", folder / "out.vtu", "--target-ratio", "1"});
+  };
+  const std::string last = " 3 0 1 3 3 1 2 3 3 2 0 3";
+  for (const std::string faces : {"5 3 0 1 2" + last, "3 3 0 1 2" + last, "99999999 3 0 1 2" + last,
+                                  "4 99999999 0 1 2" + last, "4 -3 0 1 2" + last, "-4 3 0 1 2" + last})
+    expect_failure(run_with(faces, "17"), 1, "the faces of polyhedra are broken");
+  for (const char *end : {"16", "18", "99999999", "0"}) expect_failure(run_with("4 3 0 1 2" + last, end), 1, "in.vtu");
+  expect_failure(run_with("4 3 0 1 7" + last, "17"), 1, "cell 0 names point 7, which the mesh does not have");
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"in.vtu"});
+  const Outcome sound = run_with("4 3 0 1 2" + last, "17");
+  EXPECT_EQ(sound.status, 0) << sound.err;
+}
+
 TEST_F(Usage, AValueThatIsNoneInText) {
   std::ofstream(folder / "in.vtk") << "# vtk DataFile Version 3.0\nno title\nASCII\nDATASET UNSTRUCTURED_GRID\n"
                                       "POINTS 5 double\n0 0 0 1 0 0 0 1 0 0 0 1 0 0 -1\n"
