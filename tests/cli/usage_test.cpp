@@ -357,8 +357,8 @@ TEST_F(Usage, FacesThatAreBroken) {
     return run_tool({folder / "in.vtu", folder / "out.vtu", "--target-ratio", "1"});
   };
   const std::string last = " 3 0 1 3 3 1 2 3 3 2 0 3";
-  for (const std::string faces : {"5 3 0 1 2" + last, "3 3 0 1 2" + last, "99999999 3 0 1 2" + last,
-                                  "4 99999999 0 1 2" + last, "4 -3 0 1 2" + last, "-4 3 0 1 2" + last})
+  for (const std::string &faces : {"5 3 0 1 2" + last, "3 3 0 1 2" + last, "99999999 3 0 1 2" + last,
+                                   "4 99999999 0 1 2" + last, "4 -3 0 1 2" + last, "-4 3 0 1 2" + last})
     expect_failure(run_with(faces, "17"), 1, "the faces of polyhedra are broken");
   for (const char *end : {"16", "18", "99999999", "0"}) expect_failure(run_with("4 3 0 1 2" + last, end), 1, "in.vtu");
   expect_failure(run_with("4 3 0 1 7" + last, "17"), 1, "cell 0 names point 7, which the mesh does not have");
