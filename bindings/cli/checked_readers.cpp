@@ -2,12 +2,15 @@
 
 #include <vtkAbstractArray.h>
 #include <vtkDataArray.h>
+#include <vtkIdTypeArray.h>
 #include <vtkObjectFactory.h>
+#include <vtkUnstructuredGrid.h>
 #include <vtkXMLDataElement.h>
 
 #include <algorithm>
 #include <cstring>
 #include <string>
+#include <vector>
 
 namespace cli {
 namespace {
@@ -137,6 +140,25 @@ int CheckedPartsReader::ReadPrimaryElement(vtkXMLDataElement *primary) {
     return 0;
   }
   return vtkXMLPUnstructuredGridReader::ReadPrimaryElement(primary);
+}
+
+// VTK adds the places of the faces of a piece's cells where it has polyhedra, and none where not.
+int CheckedPartsReader::ReadPieceData() {
+  vtkUnstructuredGrid &whole = *vtkUnstructuredGrid::SafeDownCast(this->GetCurrentOutput());
+  const auto count = [&] { return whole.GetFaceLocations() ? whole.GetFaceLocations()->GetNumberOfValues() : 0; };
+  const vtkIdType before = count();
+  const int is_read = vtkXMLPUnstructuredGridReader::ReadPieceData();
+  vtkIdTypeArray *const places = whole.GetFaceLocations();
+  if (places == nullptr) return is_read;
+  const std::vector<vtkIdType> own(places->GetPointer(before), places->GetPointer(before) + (count() - before));
+  places->SetNumberOfValues(before);
+  const auto pad = [&](vtkIdType cells) {
+    while (count() < cells) places->InsertNextValue(-1);
+  };
+  pad(this->StartCell);
+  for (const vtkIdType place : own) places->InsertNextValue(place);
+  pad(this->StartCell + this->GetNumberOfCellsInPiece(this->Piece));
+  return is_read;
 }
 
 void CheckedPartsReader::CopyArrayForPoints(vtkAbstractArray *from, vtkAbstractArray *to) {

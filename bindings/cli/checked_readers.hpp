@@ -36,6 +36,7 @@ class CheckedPartsReader : public vtkXMLPUnstructuredGridReader {
   ~CheckedPartsReader() override = default;
   vtkXMLDataReader *CreatePieceReader() override;
   int ReadPrimaryElement(vtkXMLDataElement *primary) override;
+  int ReadPieceData() override;
   void CopyArrayForPoints(vtkAbstractArray *from, vtkAbstractArray *to) override;
   void CopyArrayForCells(vtkAbstractArray *from, vtkAbstractArray *to) override;
 };

@@ -69,12 +69,6 @@ void for_each_solid(vtkUnstructuredGrid &grid, const Use &use) {
     if (is_solid(grid.GetCellType(c)) && !is_ghost(grid, c)) use(c);
 }
 
-std::array<double, 3> point(vtkUnstructuredGrid &grid, vtkIdType id) {
-  std::array<double, 3> p{};
-  grid.GetPoint(id, p.data());
-  return p;
-}
-
 // Corners 0-3, then the middles of 01 12 02 03 13 23. A tet at each corner leaves an octahedron, which its shortest
 // diagonal cuts in four; the cell's faces are cut in the same four triangles from both sides.
 void cut_quadratic_tet(vtkUnstructuredGrid &grid, const vtkIdType *ids, vtkTypeInt64Array &tets) {
@@ -134,8 +128,10 @@ class Pulling {
     }
     for (const auto &face : faces_)
       for (std::size_t k = 2; k < face.size(); k++) {
-        const vtkIdType tet[] = {apex, face[0], face[k - 1], face[k]};
-        if (are_different(tet)) add(cell, tet);
+        vtkIdType tet[] = {apex, face[0], face[k - 1], face[k]};
+        if (!are_different(tet)) continue;
+        orient(grid_, tet);
+        add(cell, tet);
       }
   }
 

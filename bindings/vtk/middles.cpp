@@ -2,6 +2,7 @@
 
 #include <vtkCellData.h>
 #include <vtkCellType.h>
+#include <vtkDoubleArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -32,19 +33,31 @@ vtkIdType count_middles(vtkUnstructuredGrid &grid) {
   return count;
 }
 
+// Flags and marks are no numbers that have means.
+bool has_means(vtkDataArray &array, vtkPointData &data, const std::string &flags) {
+  const std::string name = array.GetName() != nullptr ? array.GetName() : "";
+  return &array != data.GetGlobalIds() && name != flags && name != vtkDataSetAttributes::GhostArrayName();
+}
+
+// Integers become doubles, as they do on a result: means are none.
+vtkSmartPointer<vtkAbstractArray> copy_of(vtkAbstractArray &array, bool becomes_double) {
+  const auto copy = becomes_double ? vtkSmartPointer<vtkAbstractArray>(vtkSmartPointer<vtkDoubleArray>::New())
+                                   : vtk::TakeSmartPointer(array.NewInstance());
+  copy->DeepCopy(&array);
+  copy->SetName(array.GetName());
+  return copy;
+}
+
+bool is_real(vtkDataArray &array) { return array.GetDataType() == VTK_FLOAT || array.GetDataType() == VTK_DOUBLE; }
+
 class Cutting {
  public:
-  explicit Cutting(vtkUnstructuredGrid &from) : from_(from), places_(from) {
-    const vtkIdType points = from.GetNumberOfPoints(), cells = from.GetNumberOfCells();
-    vtkNew<vtkPoints> room;
-    room->SetDataType(from.GetPoints()->GetDataType());
-    room->SetNumberOfPoints(points);
-    for (vtkIdType v = 0; v < points; v++) room->SetPoint(v, from.GetPoint(v));
-    to_->SetPoints(room);
-    to_->GetPointData()->DeepCopy(from.GetPointData());
+  Cutting(vtkUnstructuredGrid &from, const std::string &flags) : from_(from), flags_(flags), places_(from) {
+    copy_points();
+    copy_point_data();
     to_->GetCellData()->CopyAllOn();
-    to_->GetCellData()->CopyAllocate(from.GetCellData(), cells);
-    to_->Allocate(cells);
+    to_->GetCellData()->CopyAllocate(from.GetCellData(), from.GetNumberOfCells());
+    to_->Allocate(from.GetNumberOfCells());
   }
 
   vtkSmartPointer<vtkUnstructuredGrid> cut() {
@@ -53,11 +66,33 @@ class Cutting {
   }
 
  private:
+  void copy_points() {
+    vtkNew<vtkPoints> points;
+    points->SetDataType(from_.GetPoints()->GetDataType() == VTK_FLOAT ? VTK_FLOAT : VTK_DOUBLE);
+    points->SetNumberOfPoints(from_.GetNumberOfPoints());
+    for (vtkIdType v = 0; v < from_.GetNumberOfPoints(); v++) points->SetPoint(v, from_.GetPoint(v));
+    to_->SetPoints(points);
+  }
+
+  void copy_point_data() {
+    vtkPointData &from = *from_.GetPointData(), &to = *to_->GetPointData();
+    for (int i = 0; i < from.GetNumberOfArrays(); i++) {
+      vtkDataArray *const numbers = from.GetArray(i);
+      has_means_.push_back(numbers != nullptr && has_means(*numbers, from, flags_));
+      to.AddArray(copy_of(*from.GetAbstractArray(i), has_means_.back() && !is_real(*numbers)));
+    }
+    int active[vtkDataSetAttributes::NUM_ATTRIBUTES];
+    from.GetAttributeIndices(active);
+    for (int kind = 0; kind < vtkDataSetAttributes::NUM_ATTRIBUTES; kind++)
+      if (active[kind] >= 0) to.SetActiveAttribute(active[kind], kind);
+  }
+
   void keep(vtkIdType cell) {
+    const int type = from_.GetCellType(cell);
     vtkIdType size = 0;
     const vtkIdType *ids = nullptr;
     from_.GetCells()->GetCellAtId(cell, size, ids);
-    const int type = from_.GetCellType(cell);
+    if (is_solid(type)) points_of(from_, cell, 0);           // which names the cell, as long as it has its number
     if (type != VTK_POLYHEDRON) add(cell, type, ids, size);  // else it is a ghost
   }
 
@@ -65,20 +100,30 @@ class Cutting {
     get_faces(from_, cell, faces_);
     triangles_.clear();
     std::vector<vtkIdType> points;
-    for (const auto &face : faces_) {
+    for (auto &face : faces_) {
+      leave_out_repeated(face);
       cut_face(face);
       points.insert(points.end(), face.begin(), face.end());
     }
     leave_out_folded();
-    const vtkIdType middle = add_middle(points);
+    if (triangles_.empty()) return;
+    const vtkIdType middle = add_middle(points, 0);
     for (const Triangle &t : triangles_) {
-      const vtkIdType tet[] = {middle, t[0], t[1], t[2]};
+      vtkIdType tet[] = {middle, t[0], t[1], t[2]};
+      orient(*to_, tet);
       add(cell, VTK_TETRA, tet, 4);
     }
   }
 
   void add(vtkIdType cell, int type, const vtkIdType *ids, vtkIdType size) {
     to_->GetCellData()->CopyData(from_.GetCellData(), cell, to_->InsertNextCell(type, size, ids));
+  }
+
+  // Those that are at one place with the one before.
+  void leave_out_repeated(std::vector<vtkIdType> &face) const {
+    const auto same = [&](vtkIdType a, vtkIdType b) { return places_.rank(a) == places_.rank(b); };
+    face.erase(std::unique(face.begin(), face.end(), same), face.end());
+    while (face.size() > 1 && same(face.front(), face.back())) face.pop_back();
   }
 
   // A quad from its lowest point on, as those of cells without a middle; a larger one around a middle of its own, as
@@ -96,17 +141,30 @@ class Cutting {
       for (std::size_t k = 2; k < n; k++) triangles_.push_back({at(0), at(k - 1), at(k)});
   }
 
-  // The same for both cells that have it.
-  vtkIdType middle_of_face(const std::vector<vtkIdType> &face) {
-    std::vector<vtkIdType> ranks = face;
-    for (vtkIdType &id : ranks) id = places_.rank(id);
-    std::sort(ranks.begin(), ranks.end());
-    const auto [found, is_new] = middles_.emplace(std::move(ranks), -1);
-    if (is_new) found->second = add_middle(face);
+  // The same for both cells that have it. Cells with points of their own where they meet have middles of their own
+  // there, at exactly one place, too. It is flagged as all of the face's points are.
+  vtkIdType middle_of_face(std::vector<vtkIdType> face) {
+    std::sort(face.begin(), face.end());
+    const auto [found, is_new] = middles_.emplace(face, -1);
+    if (!is_new) return found->second;
+    found->second = add_middle(face, flags_of_all(face));
+    std::vector<vtkIdType> place = face;
+    for (vtkIdType &id : place) id = places_.rank(id);
+    std::sort(place.begin(), place.end());
+    const vtkIdType first = first_middle_.emplace(std::move(place), found->second).first->second;
+    to_->GetPoints()->SetPoint(found->second, std::array<double, 3>(point(*to_, first)).data());
     return found->second;
   }
 
-  vtkIdType add_middle(std::vector<vtkIdType> points) {
+  int flags_of_all(const std::vector<vtkIdType> &points) const {
+    vtkDataArray *const flags = flags_.empty() ? nullptr : from_.GetPointData()->GetArray(flags_.c_str());
+    int all = flags == nullptr ? 0 : 255;
+    for (const vtkIdType id : points) all &= flags == nullptr ? 0 : int(flags->GetComponent(id, 0));
+    return all;
+  }
+
+  // In the mean of points.
+  vtkIdType add_middle(std::vector<vtkIdType> points, int flags) {
     std::sort(points.begin(), points.end());
     points.erase(std::unique(points.begin(), points.end()), points.end());
     double p[3];
@@ -116,9 +174,13 @@ class Cutting {
     for (int i = 0; i < data.GetNumberOfArrays(); i++) {
       vtkAbstractArray &array = *data.GetAbstractArray(i);
       array.InsertNextTuple(points[0], &array);  // of what has no means
-      if (vtkDataArray *const numbers = data.GetArray(i); numbers != nullptr)
+      vtkDataArray *const numbers = data.GetArray(i);
+      const std::string name = array.GetName() != nullptr ? array.GetName() : "";
+      if (has_means_[std::size_t(i)])
         for (int k = 0; k < numbers->GetNumberOfComponents(); k++)
           numbers->SetComponent(middle, k, mean(*numbers, points, k));
+      else if (numbers != nullptr && !flags_.empty() && name == flags_)
+        numbers->SetComponent(middle, 0, flags);
     }
     return middle;
   }
@@ -156,21 +218,24 @@ class Cutting {
   }
 
   vtkUnstructuredGrid &from_;
+  const std::string flags_;  // the name of the array that has them, or empty
   const Places places_;
   const vtkSmartPointer<vtkUnstructuredGrid> to_ = vtkSmartPointer<vtkUnstructuredGrid>::New();
-  std::map<std::vector<vtkIdType>, vtkIdType> middles_;  // of faces, by their points
+  std::vector<bool> has_means_;                                         // of each array of point data
+  std::map<std::vector<vtkIdType>, vtkIdType> middles_, first_middle_;  // of faces, by their points; by their places
   Faces faces_;
   std::vector<Triangle> triangles_;  // of the cell
 };
 
 }  // namespace
 
-vtkSmartPointer<vtkUnstructuredGrid> cut_around_middles(vtkUnstructuredGrid *grid, std::vector<std::string> &notes) {
+vtkSmartPointer<vtkUnstructuredGrid> cut_around_middles(vtkUnstructuredGrid *grid, const std::string &flags,
+                                                        std::vector<std::string> &notes) {
   const vtkIdType middles = count_middles(*grid);
   if (middles == 0) return grid;
   notes.push_back(std::to_string(middles) + " polyhedra and prisms are cut around their middles, which are points " +
                   std::to_string(grid->GetNumberOfPoints()) + " and on");
-  return Cutting(*grid).cut();
+  return Cutting(*grid, flags).cut();
 }
 
 }  // namespace tetlod_vtk

@@ -97,12 +97,9 @@ Original original_of(vtkUnstructuredGrid *input, vtkInformation *steering, const
   if (input->GetPoints() == nullptr) throw std::runtime_error("the grid has no points");
   require_tuples(*input->GetPointData(), input->GetNumberOfPoints(), "points");
   require_tuples(*input->GetCellData(), input->GetNumberOfCells(), "cells");
-  original.grid = cut_around_middles(input, notes);
+  original.grid = cut_around_middles(input, wanted_name(flags), notes);
   vtkDataArray *field = steering_array(*original.grid, steering);
   original.flags = flags_array(*original.grid, flags);
-  if (original.flags != nullptr)
-    for (vtkIdType v = input->GetNumberOfPoints(); v < original.grid->GetNumberOfPoints(); v++)
-      original.flags->SetValue(v, 0);
   original.tets = tets_of(*original.grid, notes);
   original.is_split = original.tets.cells != nullptr || original.grid != input;
   original.values = lend_reals(field);

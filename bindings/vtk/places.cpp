@@ -1,5 +1,7 @@
 #include "places.hpp"
 
+#include <vtkMath.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -8,12 +10,25 @@
 
 namespace tetlod_vtk {
 
+std::array<double, 3> point(vtkUnstructuredGrid &grid, vtkIdType id) {
+  std::array<double, 3> p{};
+  grid.GetPoint(id, p.data());
+  return p;
+}
+
+void orient(vtkUnstructuredGrid &grid, vtkIdType *tet) {
+  const auto from = point(grid, tet[0]);
+  std::array<double, 3> way[3];
+  for (int k = 0; k < 3; k++)
+    for (std::size_t i = 0; i < 3; i++) way[k][i] = point(grid, tet[k + 1])[i] - from[i];
+  if (vtkMath::Determinant3x3(way[0].data(), way[1].data(), way[2].data()) < 0) std::swap(tet[2], tet[3]);
+}
+
 Places::Places(vtkUnstructuredGrid &grid) {
   using Bits = std::array<std::uint64_t, 3>;  // ordered whatever the coordinates are
   std::vector<std::pair<Bits, vtkIdType>> points(std::size_t(grid.GetNumberOfPoints()));
   for (std::size_t i = 0; i < points.size(); i++) {
-    std::array<double, 3> p{};
-    grid.GetPoint(vtkIdType(i), p.data());
+    std::array<double, 3> p = point(grid, vtkIdType(i));
     for (double &x : p) x += 0.0;  // -0 is 0
     std::memcpy(points[i].first.data(), p.data(), sizeof p);
     points[i].second = vtkIdType(i);

@@ -3,9 +3,15 @@
 
 #include <vtkUnstructuredGrid.h>
 
+#include <array>
 #include <vector>
 
 namespace tetlod_vtk {
+
+std::array<double, 3> point(vtkUnstructuredGrid &grid, vtkIdType id);
+
+// So that it is positive, if it has a volume.
+void orient(vtkUnstructuredGrid &grid, vtkIdType *tet);
 
 // Blocks of a grid may each have points of their own where they meet.
 class Places {

@@ -6,12 +6,14 @@
 #include <vtkDoubleArray.h>
 #include <vtkIdList.h>
 #include <vtkIdTypeArray.h>
+#include <vtkIntArray.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <numeric>
 #include <random>
 #include <tuple>
@@ -184,6 +186,11 @@ TEST_F(Cells, PolyhedraKeepTheirData) {
   constant->SetName("constant");
   for (vtkIdType v = 0; v < grid->GetNumberOfPoints(); v++) constant->InsertNextValue(0.1);
   grid->GetPointData()->AddArray(constant);
+  vtkNew<vtkIntArray> whole;  // numbers, whose means are none
+  whole->SetName("whole");
+  for (vtkIdType v = 0; v < grid->GetNumberOfPoints(); v++)
+    whole->InsertNextValue(int(std::lround(size * grid->GetPoint(v)[0])));
+  grid->GetPointData()->AddArray(whole);
   filter->SetInputData(grid);
   filter->SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "flags");
   filter->SetTargetRatio(0.9);
@@ -201,6 +208,132 @@ TEST_F(Cells, PolyhedraKeepTheirData) {
     const double *const p = out.GetPoint(v);
     EXPECT_NEAR(out.GetPointData()->GetScalars()->GetTuple1(v), p[0] + 2 * p[1] + 3 * p[2], 1e-6);
     EXPECT_EQ(out.GetPointData()->GetArray("constant")->GetTuple1(v), 0.1);
+    EXPECT_NEAR(out.GetPointData()->GetArray("whole")->GetTuple1(v), size * p[0], 1e-9);
+  }
+}
+
+// Two prisms of any number of sides, as polyhedra with points of their own where they meet.
+Grid apart(int sides, double jump) {
+  auto grid = Grid::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkDoubleArray> heat;
+  heat->SetName("heat");
+  for (const int layer : {0, 1, 1, 2})
+    for (int k = 0; k < sides; k++) {
+      const double turn = 2 * std::acos(-1.0) * k / sides;
+      heat->InsertNextValue(layer +
+                            (points->InsertNextPoint(std::cos(turn), std::sin(turn), layer) < 2 * sides ? 0 : jump));
+    }
+  grid->SetPoints(points);
+  grid->GetPointData()->SetScalars(heat);
+  for (const int low : {0, 2 * sides}) {
+    vtkNew<vtkIdList> faces;
+    const auto add = [&](const std::vector<int> &face) {
+      faces->InsertNextId(vtkIdType(face.size()));
+      for (const int v : face) faces->InsertNextId(low + v);
+    };
+    const auto count = static_cast<std::size_t>(sides);
+    std::vector<int> bottom(count), top(count);
+    std::iota(bottom.begin(), bottom.end(), 0);
+    std::iota(top.begin(), top.end(), sides);
+    faces->InsertNextId(sides + 2);
+    add(bottom);
+    add(top);
+    for (int k = 0; k < sides; k++) add({k, (k + 1) % sides, sides + (k + 1) % sides, sides + k});
+    grid->InsertNextCell(VTK_POLYHEDRON, faces);
+  }
+  return grid;
+}
+
+// A field that jumps there has both values at the middles of their common face, too.
+TEST_F(Cells, PolyhedraStayApartWhereAFieldJumps) {
+  constexpr int sides = 40;
+  filter->SetTargetRatio(0.9);
+  for (const double jump : {0.0, 100.0}) {
+    filter->SetInputData(apart(sides, jump));
+    EXPECT_GT(updated()->GetNumberOfCells(), 0);
+    tetlod_run_report report{};
+    report.struct_size = sizeof report;
+    ASSERT_EQ(tetlod_fetch_report(filter->GetContext(), &report), TETLOD_OK);
+    EXPECT_EQ(report.components, jump > 0 ? 2 : 1);
+    EXPECT_EQ(report.merged_points, jump > 0 ? 0 : sides + 1);
+    EXPECT_LT(report.max_error, 0.001);
+  }
+}
+
+// A seam that is locked has its middles, too.
+TEST_F(Cells, MiddlesOfFacesThatAreLockedAreLocked) {
+  constexpr int sides = 40;
+  const Grid grid = apart(sides, 0);
+  vtkNew<vtkUnsignedCharArray> flags;
+  flags->SetName("flags");
+  for (vtkIdType v = 0; v < grid->GetNumberOfPoints(); v++) flags->InsertNextValue(v < sides ? TETLOD_FLAG_LOCK : 0);
+  grid->GetPointData()->AddArray(flags);
+  filter->SetInputData(grid);
+  filter->SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "flags");
+  filter->SetTargetRatio(0.5);
+  vtkUnstructuredGrid &out = *updated();
+  int on_seam = 0, middles = 0;
+  for (vtkIdType v = 0; v < out.GetNumberOfPoints(); v++) {
+    const double *const p = out.GetPoint(v);
+    on_seam += p[2] == 0;
+    middles += p[2] == 0 && std::hypot(p[0], p[1]) < 1e-9;
+  }
+  EXPECT_EQ(on_seam, sides + 1);
+  EXPECT_EQ(middles, 1);
+  EXPECT_EQ(flags->GetNumberOfTuples(), 4 * sides) << "the input is as it was";
+}
+
+// A prism one of whose corners is there twice, on a hexahedron whose top is bent.
+TEST_F(Cells, FacesWithARepeatedPointFit) {
+  auto grid = Grid::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkDoubleArray> heat;
+  for (int layer = 0; layer < 3; layer++)
+    for (const auto &[x, y] : {std::pair(0.0, 0.0), std::pair(1.0, 0.0), std::pair(1.0, 1.0), std::pair(0.0, 1.0)}) {
+      const double bent = layer == 1 && x + y == 2 ? 0.3 : 0;
+      points->InsertNextPoint(x, y, layer + bent);
+      heat->InsertNextValue(x + layer);
+    }
+  grid->SetPoints(points);
+  grid->GetPointData()->SetScalars(heat);
+  const vtkIdType below[] = {0, 1, 2, 3, 4, 5, 6, 7}, above[] = {4, 5, 6, 7, 7, 8, 9, 10, 11, 11};
+  grid->InsertNextCell(VTK_HEXAHEDRON, 8, below);
+  grid->InsertNextCell(VTK_PENTAGONAL_PRISM, 10, above);
+  expect_filled(grid, 2, 20);
+}
+
+TEST_F(Cells, APolyhedronOfNoPointsIsNone) {
+  const Grid grid = cube_of(Kind::polyhedron);
+  grid->GetCellData()->Initialize();
+  for (const auto &faces : {std::vector<vtkIdType>{1, 0}, {2, 1, 0, 2, 0, 1}}) {
+    vtkNew<vtkIdList> ids;
+    for (const vtkIdType id : faces) ids->InsertNextId(id);
+    grid->InsertNextCell(VTK_POLYHEDRON, ids);
+  }
+  expect_filled(grid, 1, 6 * size * size * 2);
+}
+
+// Whichever piece has polyhedra.
+TEST_F(Cells, PiecesWithPolyhedraAndWithout) {
+  const cli_test::Folder folder;
+  Cube shifted;
+  shifted.kind = Kind::polyhedron;
+  shifted.shift = 1;
+  write_grid(cube_of(Kind::hexahedron), folder / "hexahedra.vtu");
+  write_grid(cube_grid(shifted), folder / "polyhedra.vtu");
+  for (const std::string pieces : {R"(<Piece Source="hexahedra.vtu"/><Piece Source="polyhedra.vtu"/>)",
+                                   R"(<Piece Source="polyhedra.vtu"/><Piece Source="hexahedra.vtu"/>)"}) {
+    std::ofstream(folder / "in.pvtu")
+        << R"(<VTKFile type="PUnstructuredGrid" version="1.0"><PUnstructuredGrid GhostLevel="0">
+<PPointData Scalars="heat"><PDataArray type="Float64" Name="heat"/></PPointData>
+<PPoints><PDataArray type="Float64" NumberOfComponents="3"/></PPoints>)"
+        << pieces << "</PUnstructuredGrid></VTKFile>";
+    const cli_test::Outcome said =
+        cli_test::run_tool({folder / "in.pvtu", folder / "out.vtu", "--target-ratio", "0.5"});
+    EXPECT_EQ(said.status, 0) << said.err;
   }
 }
 
