@@ -145,7 +145,8 @@ class Untangling {
     Moves moves(&job_.memory);
     for (std::size_t v = 0; v < points_.size(); v++) {
       job_.poll_at(v, 0.9);
-      if (moved_in_[v] > 0 && points_[v] != before_[v]) moves.push_back({std::int32_t(v), points_[v]});
+      const bool is_moved = moved_in_[v] > 0 && points_[v] != before_[v];  // those of no tet may be no numbers
+      if (is_moved) moves.push_back({std::int32_t(v), points_[v]});
     }
     return moves;
   }

@@ -6,9 +6,9 @@
 namespace tetlod {
 
 /// Vertices of tets that are turned over, and of those beside them, each time as little as makes one of these upright;
-/// nearly all of it inside, and none that the host has flagged. Where the boundary's triangles agree which side is out
-/// there are none; nor where that comes to no end, or goes farther than 0.02 of the diagonal. boundary: as
-/// extract_boundary() leaves it, with nothing excluded.
+/// those of the boundary at first by a tenth of others, and none that the host has flagged. Where the boundary's
+/// triangles agree which side is out there are none; nor where that comes to no end, or goes farther than 0.02 of the
+/// diagonal. boundary: as extract_boundary() leaves it, with nothing excluded.
 Moves find_moves(const Original &original, const Boundary &boundary, Job &job);
 
 /// Unless triangles of the boundary do not agree then.

@@ -120,11 +120,10 @@ class Pulling {
 
  private:
   void pull(vtkIdType cell) {
-    const auto lower = [&](vtkIdType a, vtkIdType b) { return places_.rank(a) < places_.rank(b); };
     vtkIdType apex = faces_[0][0];
     for (auto &face : faces_) {
-      std::rotate(face.begin(), std::min_element(face.begin(), face.end(), lower), face.end());
-      apex = std::min(apex, face[0], lower);
+      places_.begin_at_lowest(face);
+      if (places_.rank(face[0]) < places_.rank(apex)) apex = face[0];
     }
     for (const auto &face : faces_)
       for (std::size_t k = 2; k < face.size(); k++) {

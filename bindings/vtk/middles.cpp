@@ -34,9 +34,9 @@ vtkIdType count_middles(vtkUnstructuredGrid &grid) {
 }
 
 // Flags and marks are no numbers that have means.
-bool has_means(vtkDataArray &array, vtkPointData &data, const std::string &flags) {
-  const std::string name = array.GetName() != nullptr ? array.GetName() : "";
-  return &array != data.GetGlobalIds() && name != flags && name != vtkDataSetAttributes::GhostArrayName();
+bool has_means(vtkDataArray &array, vtkPointData &data, vtkDataArray *flags) {
+  return &array != flags && &array != data.GetGlobalIds() &&
+         &array != data.GetArray(vtkDataSetAttributes::GhostArrayName());
 }
 
 // Integers become doubles, as they do on a result: means are none.
@@ -52,9 +52,9 @@ bool is_real(vtkDataArray &array) { return array.GetDataType() == VTK_FLOAT || a
 
 class Cutting {
  public:
-  Cutting(vtkUnstructuredGrid &from, const std::string &flags) : from_(from), flags_(flags), places_(from) {
+  Cutting(vtkUnstructuredGrid &from, const std::string &flags) : from_(from), places_(from) {
     copy_points();
-    copy_point_data();
+    copy_point_data(flags);
     to_->GetCellData()->CopyAllOn();
     to_->GetCellData()->CopyAllocate(from.GetCellData(), from.GetNumberOfCells());
     to_->Allocate(from.GetNumberOfCells());
@@ -74,17 +74,19 @@ class Cutting {
     to_->SetPoints(points);
   }
 
-  void copy_point_data() {
+  void copy_point_data(const std::string &flags) {
     vtkPointData &from = *from_.GetPointData(), &to = *to_->GetPointData();
+    vtkDataArray *const of_flags = flags.empty() ? nullptr : from.GetArray(flags.c_str());
     for (int i = 0; i < from.GetNumberOfArrays(); i++) {
       vtkDataArray *const numbers = from.GetArray(i);
-      has_means_.push_back(numbers != nullptr && has_means(*numbers, from, flags_));
+      has_means_.push_back(numbers != nullptr && has_means(*numbers, from, of_flags));
       to.AddArray(copy_of(*from.GetAbstractArray(i), has_means_.back() && !is_real(*numbers)));
     }
     int active[vtkDataSetAttributes::NUM_ATTRIBUTES];
     from.GetAttributeIndices(active);
     for (int kind = 0; kind < vtkDataSetAttributes::NUM_ATTRIBUTES; kind++)
       if (active[kind] >= 0) to.SetActiveAttribute(active[kind], kind);
+    if (of_flags != nullptr) flags_ = to.GetArray(flags.c_str());
   }
 
   void keep(vtkIdType cell) {
@@ -128,17 +130,15 @@ class Cutting {
 
   // A quad from its lowest point on, as those of cells without a middle; a larger one around a middle of its own, as
   // points may lie between those of a neighbour in it.
-  void cut_face(const std::vector<vtkIdType> &face) {
+  void cut_face(std::vector<vtkIdType> &face) {
     const std::size_t n = face.size();
-    if (n < 3) return;
-    const vtkIdType middle = n > 4 ? middle_of_face(face) : -1;
-    const auto lower = [&](vtkIdType a, vtkIdType b) { return places_.rank(a) < places_.rank(b); };
-    const auto first = std::size_t(std::min_element(face.begin(), face.end(), lower) - face.begin());
-    const auto at = [&](std::size_t k) { return face[(first + k) % n]; };
-    if (middle >= 0)
-      for (std::size_t k = 0; k < n; k++) triangles_.push_back({middle, at(k), at(k + 1)});
-    else
-      for (std::size_t k = 2; k < n; k++) triangles_.push_back({at(0), at(k - 1), at(k)});
+    if (n > 4) {
+      const vtkIdType middle = middle_of_face(face);
+      for (std::size_t k = 0; k < n; k++) triangles_.push_back({middle, face[k], face[(k + 1) % n]});
+    } else if (n > 2) {
+      places_.begin_at_lowest(face);
+      for (std::size_t k = 2; k < n; k++) triangles_.push_back({face[0], face[k - 1], face[k]});
+    }
   }
 
   // The same for both cells that have it. Cells with points of their own where they meet have middles of their own
@@ -152,14 +152,14 @@ class Cutting {
     for (vtkIdType &id : place) id = places_.rank(id);
     std::sort(place.begin(), place.end());
     const vtkIdType first = first_middle_.emplace(std::move(place), found->second).first->second;
-    to_->GetPoints()->SetPoint(found->second, std::array<double, 3>(point(*to_, first)).data());
+    to_->GetPoints()->SetPoint(found->second, point(*to_, first).data());
     return found->second;
   }
 
   int flags_of_all(const std::vector<vtkIdType> &points) const {
-    vtkDataArray *const flags = flags_.empty() ? nullptr : from_.GetPointData()->GetArray(flags_.c_str());
-    int all = flags == nullptr ? 0 : 255;
-    for (const vtkIdType id : points) all &= flags == nullptr ? 0 : int(flags->GetComponent(id, 0));
+    if (flags_ == nullptr) return 0;
+    int all = 255;
+    for (const vtkIdType id : points) all &= int(flags_->GetComponent(id, 0));
     return all;
   }
 
@@ -174,14 +174,11 @@ class Cutting {
     for (int i = 0; i < data.GetNumberOfArrays(); i++) {
       vtkAbstractArray &array = *data.GetAbstractArray(i);
       array.InsertNextTuple(points[0], &array);  // of what has no means
-      vtkDataArray *const numbers = data.GetArray(i);
-      const std::string name = array.GetName() != nullptr ? array.GetName() : "";
-      if (has_means_[std::size_t(i)])
+      if (vtkDataArray *const numbers = data.GetArray(i); has_means_[std::size_t(i)])
         for (int k = 0; k < numbers->GetNumberOfComponents(); k++)
           numbers->SetComponent(middle, k, mean(*numbers, points, k));
-      else if (numbers != nullptr && !flags_.empty() && name == flags_)
-        numbers->SetComponent(middle, 0, flags);
     }
+    if (flags_ != nullptr) flags_->SetComponent(middle, 0, flags);
     return middle;
   }
 
@@ -218,7 +215,7 @@ class Cutting {
   }
 
   vtkUnstructuredGrid &from_;
-  const std::string flags_;  // the name of the array that has them, or empty
+  vtkDataArray *flags_ = nullptr;  // of the copy's points; null: there are none
   const Places places_;
   const vtkSmartPointer<vtkUnstructuredGrid> to_ = vtkSmartPointer<vtkUnstructuredGrid>::New();
   std::vector<bool> has_means_;                                         // of each array of point data

@@ -19,8 +19,10 @@ std::array<double, 3> point(vtkUnstructuredGrid &grid, vtkIdType id) {
 void orient(vtkUnstructuredGrid &grid, vtkIdType *tet) {
   const auto from = point(grid, tet[0]);
   std::array<double, 3> way[3];
-  for (int k = 0; k < 3; k++)
-    for (std::size_t i = 0; i < 3; i++) way[k][i] = point(grid, tet[k + 1])[i] - from[i];
+  for (int k = 0; k < 3; k++) {
+    way[k] = point(grid, tet[k + 1]);
+    for (std::size_t i = 0; i < 3; i++) way[k][i] -= from[i];
+  }
   if (vtkMath::Determinant3x3(way[0].data(), way[1].data(), way[2].data()) < 0) std::swap(tet[2], tet[3]);
 }
 
@@ -42,6 +44,11 @@ Places::Places(vtkUnstructuredGrid &grid) {
     any = any || again;
   }
   if (!any) lowest_.clear();
+}
+
+void Places::begin_at_lowest(std::vector<vtkIdType> &face) const {
+  const auto lower = [&](vtkIdType a, vtkIdType b) { return rank(a) < rank(b); };
+  std::rotate(face.begin(), std::min_element(face.begin(), face.end(), lower), face.end());
 }
 
 }  // namespace tetlod_vtk

@@ -21,6 +21,9 @@ class Places {
   // The lowest that is at the point's place.
   vtkIdType rank(vtkIdType id) const { return lowest_.empty() ? id : lowest_[std::size_t(id)]; }
 
+  // Goes around a face from its lowest point on.
+  void begin_at_lowest(std::vector<vtkIdType> &face) const;
+
  private:
   std::vector<vtkIdType> lowest_;  // empty: no two are at one
 };

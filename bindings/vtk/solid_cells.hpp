@@ -23,7 +23,7 @@ const vtkIdType *points_of(vtkUnstructuredGrid &grid, vtkIdType cell, int least)
 // Points of each face in their order around it; by its corners, of a curved cell.
 using Faces = std::vector<std::vector<vtkIdType>>;
 
-// Of a solid cell. Throws as above.
+// Of a solid cell, but a tet. Throws as above.
 void get_faces(vtkUnstructuredGrid &grid, vtkIdType cell, Faces &faces);
 
 }  // namespace tetlod_vtk

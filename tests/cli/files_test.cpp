@@ -178,6 +178,19 @@ TEST_F(Files, VectorsSteerByTheirMagnitude) {
   expect_in(said.err, "note: the vectors 'flow' steer by their magnitude");
 }
 
+// A sum of parts, as 7 / 6, may be off by rounding.
+TEST_F(Files, MeansOfAConstantAreThat) {
+  Cube cube;
+  cube.cells_alone = cube.one_part = true;
+  for (const Kind kind : {Kind::tet, Kind::polyhedron}) {
+    cube.kind = kind;
+    const Json report = run_on(cube);
+    EXPECT_EQ(report["scalar_min"], 7);
+    EXPECT_EQ(report["scalar_max"], 7);
+    expect_in(said.err, "the field 'part' is constant");
+  }
+}
+
 // Layers of cells across x have 5 and 6 in turns: the first and the last points have one kind around them, all others
 // both.
 TEST_F(Files, CellDataSteerByTheirMeansAroundPoints) {

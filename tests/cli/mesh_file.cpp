@@ -222,7 +222,7 @@ void write_cube(const std::string &path, const Cube &cube) {
   file << "CELL_TYPES " << cells.size() << '\n';
   for (const Cell &cell : cells) file << cell.type << '\n';
   file << "CELL_DATA " << cells.size() << "\nSCALARS part int 1\nLOOKUP_TABLE default\n";
-  for (std::size_t i = 0; i < cells.size(); i++) file << 5 + i % 2 << '\n';
+  for (std::size_t i = 0; i < cells.size(); i++) file << (cube.one_part ? 7 : 5 + i % 2) << '\n';
   if (!cube.cells_alone) write_point_data(file, cube, lattice);
 }
 

@@ -21,6 +21,7 @@ struct Cube {
   bool with_bad_index = false;  // in the last cell
   bool vectors_alone = false;   // no scalars
   bool cells_alone = false;     // no point data
+  bool one_part = false;        // all cells are of part 7
 };
 
 // Point data: the active scalars "heat" = x + 2 y + 3 z, as a part of `hottest`, further scalars "other" = x, vectors
