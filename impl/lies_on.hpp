@@ -17,12 +17,14 @@ inline double rounding_of_six_digits(Span<const Vec3> points, Span<const Triangl
   return 1e-5 * largest;
 }
 
-/// Whether the tip of the shorter of two ways lies on the longer.
-inline bool lies_on(const Vec3 &shorter, const Vec3 &longer, double rounding) {
-  constexpr double most = 1e-3;  // of the shorter one
-  const double off2 = length2(glm::cross(shorter, longer)), length2_of_longer = length2(longer);
-  return off2 <= rounding * rounding * length2_of_longer &&
-         off2 <= most * most * length2(shorter) * length2_of_longer && glm::dot(shorter, longer) > 0;
+/// Whether the tip of a way from one end of an edge lies on the edge, and not beside one of its ends.
+inline bool lies_on(const Vec3 &way, const Vec3 &edge, double rounding) {
+  constexpr double most = 1e-3;  // of the way to the nearer end
+  const double along = glm::dot(way, edge), edge2 = length2(edge);
+  const Vec3 from_nearer_end = 2 * along < edge2 ? way : way - edge;
+  const double off2 = length2(glm::cross(from_nearer_end, edge));
+  return 0 < along && along < edge2 && off2 <= rounding * rounding * edge2 &&
+         off2 <= most * most * length2(from_nearer_end) * edge2;
 }
 
 /// Whether normals are opposite, but for rounding.

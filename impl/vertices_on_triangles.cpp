@@ -88,8 +88,7 @@ class VerticesOnTriangles {
   /// How far from its ends, in its length; 0: not on it.
   double along_edge(const Vec3 &way, const Vec3 &edge) const {
     const double share = glm::dot(way, edge) / length2(edge);
-    const bool is_on = share < 0.5 ? lies_on(way, edge, rounding_) : lies_on(way - edge, -edge, rounding_);
-    return is_on ? std::min(share, 1 - share) : 0;
+    return lies_on(way, edge, rounding_) ? std::min(share, 1 - share) : 0;
   }
 
   bool lies_in_plane(const Triangle &t, const Vec3 &outward, const Vec3 &p) const {

@@ -120,6 +120,33 @@ Mesh slab_with_slits(int n, int layers) {
   return slab;
 }
 
+Mesh cracked_cube(int n, double opening) {
+  Mesh cube = kuhn_cube(n);
+  const std::size_t points = cube.points.size();
+  std::vector<std::int32_t> above(points);
+  for (std::size_t v = 0; v < points; v++) {
+    const Vec3 p = cube.points[v];
+    above[v] = std::int32_t(v);
+    if (p.z != 0.5 || std::hypot(p.x - 0.5, p.y - 0.5) > 0.3) continue;
+    above[v] = std::int32_t(cube.points.size());
+    cube.points.push_back(p + Vec3(0, 0, opening));
+  }
+  std::vector<double> side(cube.points.size(), -1);
+  for (Tet &t : cube.tets) {
+    double z = 0;
+    for (const std::int32_t v : t) z += cube.points[std::size_t(v)].z / 4;
+    if (z < 0.5) continue;
+    for (std::int32_t &v : t)
+      if (v < std::int32_t(points)) side[std::size_t(v = above[std::size_t(v)])] = 1;
+  }
+  cube.scalars.resize(cube.points.size());
+  for (std::size_t v = 0; v < cube.points.size(); v++) {
+    const bool is_front = cube.points[v].z == 0.5 && v < points && above[v] == std::int32_t(v);
+    cube.scalars[v] = is_front ? 0 : side[v] * std::exp(-4 * std::abs(cube.points[v].z - 0.5));
+  }
+  return cube;
+}
+
 Mesh random_solid(int n, double probability, unsigned seed) {
   std::mt19937_64 random(seed);
   std::bernoulli_distribution is_solid(probability);

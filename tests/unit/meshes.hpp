@@ -56,6 +56,10 @@ Mesh refined_cubes(int n, const std::function<int(const Cell &)> &level_of, unsi
 /// A slab of n x n x layers cells with slits in its middle, each one cell wide and next to nothing high.
 Mesh slab_with_slits(int n, int layers);
 
+/// The cube [0, 1]^3 in n^3 cells, n even, with a round crack in the middle that is so far open: points above it are of
+/// their own, but at its front. Scalars are 1 above the crack and -1 below, less farther away from it.
+Mesh cracked_cube(int n, double opening);
+
 /// n^3 cells, each solid with the given probability, the lowest always: touches itself at edges and vertices, has
 /// tunnels, cavities and several components.
 Mesh random_solid(int n, double probability, unsigned seed);

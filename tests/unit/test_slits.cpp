@@ -152,6 +152,21 @@ TEST_F(Slits, CareIsFoundToBeNeededOnce) {
   }
 }
 
+/// However little they are open, if it is more than rounding: each side keeps its values.
+TEST_F(Slits, CracksStayOpen) {
+  for (const double opening : {1e-3, 1e-6}) {
+    slab = cracked_cube(16, opening);
+    for (const auto &[ratio, bound] : {std::pair(0.2, 0.0), {0.0, 0.02}}) {
+      options.target_ratio = ratio;
+      options.max_error = bound;
+      simplify(slab);
+      expect_sound(slab, 0.01);
+      EXPECT_LT(report().max_error, 0.02 + 1e-12) << opening;
+      EXPECT_LT(report().max_deviation, opening) << opening;
+    }
+  }
+}
+
 /// Its sides are so near that their normals cancel around each edge of the rim. Without a limit `accurate` takes that
 /// nearer then, for half a hundredth of the volume at most.
 TEST_F(Slits, AThinSlabKeepsItsVolume) {
