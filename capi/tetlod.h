@@ -287,7 +287,7 @@ enum {
   TETLOD_OPT_LAMBDA = 3,          /* real, "lambda" */
   TETLOD_OPT_MIN_DISTANCE = 4,    /* real, "min-distance" */
   TETLOD_OPT_MERGE_TOLERANCE = 5, /* real, "merge-tolerance": points this near, as a fraction of the diagonal, become
-                                     one, but not of parts in contact (README); 0: at one place, but for rounding */
+                                     one, but not of parts in contact, or cracks; 0: at one place, but for rounding */
   TETLOD_OPT_CLEAN_EDGES = 6,     /* real, "clean-edges": boundary edges shorter than this fraction of the diagonal are
                                      collapsed before decimation [4, delta]; 0: off */
   TETLOD_OPT_BOUNDARY_LEAF = 7,   /* int, "boundary-leaf": triangles in a leaf of the culling tree [3.3], at most */

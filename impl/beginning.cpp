@@ -17,7 +17,7 @@ void Beginning::begin() {
   extract();
   refuse_moves(original_, options_);
   if (original_.unequal_field > 0) tell_unequal_fields();
-  if (!original_.moves.empty()) tell_moves();
+  tell_moves();
   budget_.sigma = options_.sigma;
   if (as_published(options_)) return sample();
   report_.least_change = least_change(original_.view);
@@ -34,10 +34,16 @@ void Beginning::tell_unequal_fields() const {
 
 void Beginning::tell_moves() const {
   if (!job_.log) return;
-  job_.log(2,
-           text("tets are turned over at the boundary: %lld points are moved, those on it by up to %s of the diagonal",
-                static_cast<long long>(original_.moves.size()),
-                number(original_.boundary_moved_by / original_.box.diagonal()).c_str())
+  const std::string moved_by = number(original_.boundary_moved_by / original_.box.diagonal());
+  if (!original_.opened.empty())
+    job_.log(
+        2, text("a field jumps across cracks: %lld points of their sides lie apart, by up to twice %s of the diagonal",
+                static_cast<long long>(original_.opened.size()), moved_by.c_str())
+               .c_str());
+  if (!original_.moves.empty())
+    job_.log(
+        2, text("tets are turned over at the boundary: %lld points are moved, those on it by up to %s of the diagonal",
+                static_cast<long long>(original_.moves.size()), moved_by.c_str())
                .c_str());
 }
 
@@ -85,6 +91,7 @@ void Beginning::extract() {
   if (!report_.reused_tets) prepare_boundary(input_, options_, job_, original_, boundary_);
   prepared_.complete(input_, job_);
   result_.torn = original_.torn;
+  result_.opened = original_.opened;
   result_.moves = original_.moves;
   describe_input(input_, original_, report_);
   describe_extraction(boundary_, report_);

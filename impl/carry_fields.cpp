@@ -124,8 +124,8 @@ void find_stencil(const Input &input, const Options &options, Prepared &prepared
     prepare_with_boundary(bare, options, job, fresh.original, fresh.boundary, &result.moves);
   }
   Prepared &of = held ? prepared : fresh;
-  if (of.original.torn != result.torn)
-    fail(Status::state, "a field jumps between other parts of the mesh since the run that made the result");
+  if (of.original.torn != result.torn || of.original.opened != result.opened)
+    fail(Status::state, "a field jumps in other places of the mesh since the run that made the result");
   MeshView view = of.original.view;
   if (!result.mesh.solid.empty()) view.solid = of.solids(job);
   Array<Vec3> copy(&job.memory);

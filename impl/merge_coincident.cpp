@@ -51,14 +51,22 @@ std::int64_t merge_places(Span<const Vec3> points, Span<const Tet> tets, Span<co
 
 Merged merge_coincident(const Input &input, Span<const Vec3> points, Span<const Tet> tets,
                         Span<const std::uint8_t> used, const Box &box, const Options &options, Job &job,
-                        Array<std::int32_t> &representative) {
+                        Array<std::int32_t> &representative, bool opens_cracks) {
   const bool is_finite = std::isfinite(box.diagonal());
   const double tolerance = is_finite ? options.merge_tolerance * box.diagonal() : 0;
   const double rounding = is_finite ? rounding_of(box) : 0;
-  const std::int64_t merged = merge_places(points, tets, used, tolerance, rounding, job, representative);
-  if (merged == 0 || !takes_contacts(options)) return {merged, merged > 0, false, Torn(&job.memory)};
+  Merged merged(job.memory);
+  merged.points = merge_places(points, tets, used, tolerance, rounding, job, representative);
+  merged.depends = merged.points > 0;
+  if (merged.points == 0 || !takes_contacts(options)) return merged;
+  const std::int64_t before = merged.points;
   KeptApart kept = keep_touching_parts_apart(input, points, tets, used, job, representative);
-  return {kept.merged, kept.merged < merged || kept.sees_values, kept.sees_values, std::move(kept.torn)};
+  if (opens_cracks) merged.cracks = keep_cracks_open(input, points, tets, used, box.diagonal(), job, representative);
+  merged.points = kept.merged - merged.cracks.split;
+  merged.sees_values = kept.sees_values || merged.cracks.sees_values || !opens_cracks;
+  merged.depends = merged.points < before || merged.sees_values;
+  merged.torn = std::move(kept.torn);
+  return merged;
 }
 
 }  // namespace tetlod

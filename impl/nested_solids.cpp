@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "extract_boundary.hpp"
 #include "find_crossing.hpp"
 #include "geometry.hpp"
 #include "host_numbers.hpp"
@@ -96,6 +97,20 @@ void refuse_overlaps(const Surface &surface, const SurfaceTopology &topology, Co
     refuse_crossing(surface, tree, index_base, job, may_meet);
   }
   refuse_nested_solids(surface, topology, tree, index_base, job, may_meet);
+}
+
+void refuse_unsound(const MeshView &mesh, Span<const Triangle> boundary, bool may_be_in_contact,
+                    std::int32_t index_base, Job &job) {
+  Surface surface(job.memory);
+  make_surface(mesh, boundary, job, surface);
+  SurfaceTopology topology(job.memory);
+  find_topology(surface.points, surface.triangles, job, topology, host_numbers(surface, index_base));
+  TreeOnDemand tree(surface);
+  ContactsOnDemand contacts;
+  if (may_be_in_contact)
+    refuse_overlaps(surface, topology, contacts, tree, index_base, job);
+  else
+    refuse_intersections(surface, topology, tree, index_base, job);
 }
 
 }  // namespace tetlod

@@ -143,13 +143,14 @@ using Moves = Array<Move>;
 using Torn = Array<std::pair<std::int32_t, std::int32_t>>;
 
 struct Result {
-  explicit Result(Memory &memory) : mesh(memory), stencil(memory), torn(&memory), moves(&memory) {}
+  explicit Result(Memory &memory) : mesh(memory), stencil(memory), torn(&memory), opened(&memory), moves(&memory) {}
   TetMesh mesh;
   Stencil stencil;                   ///< of the mesh's points, numbered as the caller's; empty until a field needs it
   std::vector<CarriedField> fields;  ///< and those that steered beside the scalars
   Report report;
   Fingerprint original;  ///< of its points and tets
   Torn torn;             ///< parts of it that stayed apart, though they have faces in common
+  Moves opened;          ///< of it: Original::opened
   Moves moves;           ///< of it
 };
 

@@ -6,8 +6,10 @@
 #include "conforming.hpp"
 #include "first_culprit.hpp"
 #include "geometry.hpp"
+#include "measure_ranges.hpp"
 #include "merge_coincident.hpp"
 #include "merged_values.hpp"
+#include "nested_solids.hpp"
 #include "status.hpp"
 #include "untangle.hpp"
 #include "whole_arrays.hpp"
@@ -66,52 +68,6 @@ std::size_t first_nonfinite(const MeshView &mesh, std::size_t v) {
   std::size_t k = 0;
   while (k < mesh.fields && std::isfinite(mesh.scalars[v * mesh.fields + k])) k++;
   return k;
-}
-
-/// Of the fields of a mesh, field by field.
-using Ranges = ValueRange<most_fields>;
-
-void add_values(const MeshView &mesh, std::size_t v, Ranges &ranges) {
-  for (std::size_t k = 0; k < mesh.fields; k++) {
-    ranges.low[k] = std::min(ranges.low[k], mesh.scalars[v * mesh.fields + k]);
-    ranges.high[k] = std::max(ranges.high[k], mesh.scalars[v * mesh.fields + k]);
-  }
-}
-
-/// Away from the ends of doubles, so that what is scaled by it can be scaled back.
-constexpr double least_scale = 1e-250, largest_scale = 1e250;
-double sane_scale(double scale) { return scale > least_scale ? std::min(scale, largest_scale) : least_scale; }
-
-/// Not more than a double holds.
-double range_of(const Ranges &ranges, std::size_t k) {
-  return std::min(ranges.high[k] - ranges.low[k], std::numeric_limits<double>::max());
-}
-
-/// What errors of a field are compared with. A constant one's are of rounding: they are to count next to nothing.
-double extent_of(const Ranges &ranges, std::size_t k) {
-  const double range = range_of(ranges, k);
-  return range > 0 ? range : std::max({std::abs(ranges.low[k]), std::abs(ranges.high[k]), 1.0});
-}
-
-/// What is constant has no errors.
-bool is_unequal(const Ranges &ranges, std::size_t k, double relative) {
-  return ranges.high[k] > ranges.low[k] && (relative <= least_scale || relative >= largest_scale);
-}
-
-void find_scales(const Input &input, const Ranges &ranges, Original &original) {
-  original.scalar_min = ranges.low[0];
-  original.scalar_max = ranges.high[0];
-  original.range = range_of(ranges, 0);
-  original.view.scales = {};
-  original.unequal_field = 0;
-  for (std::size_t k = 1; k < original.view.fields; k++)
-    if (!(original.range > 0) && ranges.high[k] > ranges.low[k]) original.range = extent_of(ranges, 0);
-  for (std::size_t k = 1; k < original.view.fields; k++) {
-    const double relative = sane_scale(original.range / extent_of(ranges, k));
-    if (original.unequal_field == 0 && is_unequal(ranges, k, relative)) original.unequal_field = k;
-    original.view.scales.relative[k] = relative;
-    original.view.scales.weighted[k] = sane_scale(relative * input.steering[k - 1].weight);
-  }
 }
 
 void check_indices(const Input &input, Job &job) {
@@ -191,20 +147,6 @@ Box check_used_points(const Input &input, const Options &options, Job &job, Orig
   return box;
 }
 
-/// Of what is left: a point whose tets were all dropped is none of the mesh's.
-void measure(const Input &input, Job &job, Original &original) {
-  Ranges ranges = original.spread_range;
-  original.box = {};
-  for (std::size_t v = 0; v < original.view.used.size(); v++) {
-    job.poll_at(v, 0.9);
-    if (!original.view.used[v]) continue;
-    add_values(original.view, v, ranges);
-    original.box.add(original.view.points[v]);
-  }
-  find_scales(input, ranges, original);
-  find_spread_error(original);
-}
-
 /// These, with their numbers among the submitted ones, instead of those that the view has.
 void take_tets(Array<Tet> &&tets, Array<std::int32_t> &&numbers, Job &job, Original &original) {
   original.tets = std::move(tets);
@@ -247,6 +189,17 @@ Box scale_extreme_coordinates(const Box &box, Job &job, Original &original) {
   return {scaled(box.low), scaled(box.high)};
 }
 
+void take_cracks(Cracks &&cracks, Job &job, Original &original) {
+  original.opened = std::move(cracks.opened);
+  original.boundary_moved_by = cracks.opened_by;
+  if (original.opened.empty()) return;
+  Array<Vec3> points = array_of(original.view.points.size(), Vec3(0), job);
+  for_each(points.size(), job, [&](std::size_t v) { points[v] = original.view.points[v]; });
+  for (const Move &move : original.opened) points[std::size_t(move.vertex)] = move.to;
+  original.points = std::move(points);
+  original.view.points = original.points;
+}
+
 void read_flags(const Input &input, Span<const std::int32_t> representative, Job &job, Original &original) {
   if (!input.flags.present) return;
   original.flags.assign(representative.size(), 0);
@@ -283,6 +236,25 @@ void drop_excluded(Job &job, Boundary &boundary, Original &original) {
   take_tets(std::move(kept), std::move(numbers), job, original);
   for (std::int32_t &t : boundary.tet_of) t = renamed[std::size_t(t)];
   boundary.excluded.clear();
+}
+
+bool is_sound(const Original &original, const Boundary &boundary, Job &job) {
+  try {
+    refuse_unsound(original.view, boundary.triangles, true, original.index_base, job);
+  } catch (const Error &error) {
+    if (error.status() != Status::mesh_intersecting) throw;
+    return false;
+  }
+  return true;
+}
+
+/// Prepares the mesh anew.
+void close_cracks(const Input &input, const Options &options, Job &job, Original &original, Boundary &boundary,
+                  const Moves *moves) {
+  original = Original(job.memory);
+  boundary = Boundary(job.memory);
+  prepare_original(input, options, job, original, false);
+  prepare_boundary(input, options, job, original, boundary, moves);
 }
 
 void require_a_value_a_point(const Input &input) {
@@ -325,7 +297,7 @@ int extreme_exponent(const Box &box) {
   return std::abs(exponent) > far_from_one ? exponent : 0;
 }
 
-void prepare_original(const Input &input, const Options &options, Job &job, Original &original) {
+void prepare_original(const Input &input, const Options &options, Job &job, Original &original, bool opens_cracks) {
   check_counts(input);
   original.index_base = input.index_base;
   original.view.points = read_points(input, job, original.points);
@@ -338,19 +310,20 @@ void prepare_original(const Input &input, const Options &options, Job &job, Orig
   // The diagonal here is that of what was submitted: which tets are left is not known before points are merged.
   Array<std::int32_t> representative(&job.memory);
   Merged merged = merge_coincident(input, original.view.points, original.view.tets, original.used, submitted, options,
-                                   job, representative);
+                                   job, representative, opens_cracks);
   original.merged_points = merged.points;
   if (merged.points > 0) original.next_merged = chain_merged(representative, job);
   original.merging_depends = merged.depends;
   original.merging_sees_values = merged.sees_values;
   original.torn = std::move(merged.torn);
+  take_cracks(std::move(merged.cracks), job, original);
   read_flags(input, representative, job, original);
   if (original.merged_points || original.nonfinite_points || any_repeated_vertex(original.view.tets, job))
     drop_and_rename(representative, job, original);
   if (original.view.tets.empty())
     fail(Status::mesh_empty, "none of the %lld tets has four different vertices with a value",
          static_cast<long long>(input.tets.tuples));
-  measure(input, job, original);
+  measure_ranges(input, job, original);
 }
 
 void prepare_boundary(const Input &input, const Options &options, Job &job, Original &original, Boundary &boundary,
@@ -364,8 +337,10 @@ void prepare_boundary(const Input &input, const Options &options, Job &job, Orig
   }
   const bool repairs = options.on_overlap == policy_repair;
   if (repairs) make_moves(moves ? *moves : find_moves(original, boundary, job), job, boundary, original);
-  if (are_dropped || are_merged || !original.moves.empty()) measure(input, job, original);
+  if (are_dropped || are_merged || !original.moves.empty()) measure_ranges(input, job, original);
   if (repairs) make_conforming(job, boundary, original);
+  if (!original.opened.empty() && !is_sound(original, boundary, job))
+    close_cracks(input, options, job, original, boundary, moves);
 }
 
 void prepare_with_boundary(const Input &input, const Options &options, Job &job, Original &original, Boundary &boundary,
@@ -390,7 +365,7 @@ bool renew_values(const Input &input, Job &job, Original &original) {
     if (original.used[v] && first_nonfinite(original.view, v) < original.view.fields) return false;
   }
   take_merged_values(input, job, original);
-  measure(input, job, original);
+  measure_ranges(input, job, original);
   return true;
 }
 

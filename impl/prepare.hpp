@@ -32,6 +32,7 @@ struct Original {
         next_merged(&memory),
         counts(&memory),
         torn(&memory),
+        opened(&memory),
         moves(&memory) {}
   MeshView view;
   Array<Vec3> points;
@@ -45,6 +46,7 @@ struct Original {
   Array<std::int32_t> next_merged;    ///< of each point, the next one that became the same, or -1; empty: none did
   Array<std::uint8_t> counts;         ///< of each, whether a submitted tet that is left has it; empty with that
   Torn torn;                          ///< parts whose points did not, though they have faces in common
+  Moves opened;                       ///< points of cracks that a field jumps across: their sides lie apart
   std::int64_t merged_points = 0;     ///< coincident points that became one
   bool merging_depends = false;       ///< on whether parts may be in contact
   bool merging_sees_values = false;   ///< which points became one depends on the values of fields that steer
@@ -52,7 +54,7 @@ struct Original {
   std::int64_t dropped_tets = 0;      ///< with such a point, or with a repeated vertex, as submitted or after merging
   std::int64_t divided_tets = 0;      ///< that others take the place of: make_conforming
   Moves moves;                        ///< where tets were turned over: find_moves()
-  double boundary_moved_by = 0;       ///< the farthest of these on the boundary
+  double boundary_moved_by = 0;       ///< the farthest of these on the boundary, and of opened
   std::int32_t index_base = 0;        ///< as submitted
   int exponent = 0;                   ///< the view's coordinates are the caller's divided by 2^exponent
   double scalar_min = 0, scalar_max = 0;     ///< over the vertices that tets of the view have
@@ -86,11 +88,13 @@ void check_count(const Input &input, const std::string &field, std::int64_t tupl
 
 /// Coordinates so large or small that their sixth powers leave the range of doubles are scaled, exactly.
 /// Throws what check_counts does, mesh_index, mesh_nonfinite.
-void prepare_original(const Input &input, const Options &options, Job &job, Original &original);
+void prepare_original(const Input &input, const Options &options, Job &job, Original &original,
+                      bool opens_cracks = true);
 
 /// Then: extract_boundary. What it leaves out of the view, flat tets that hang on it and those given twice, is dropped,
 /// and points that no other tet has are none of the mesh any more. Where overlaps are repaired, vertices
-/// are moved, these or find_moves(), and then make_conforming.
+/// are moved, these or find_moves(), and then make_conforming. Where the boundary is not sound with cracks that are
+/// open, both, and original, are anew without.
 void prepare_boundary(const Input &input, const Options &options, Job &job, Original &original, Boundary &boundary,
                       const Moves *moves = nullptr);
 

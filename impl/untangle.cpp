@@ -296,9 +296,9 @@ void make_moves(const Moves &moves, Job &job, Boundary &boundary, Original &orig
 void refuse_moves(const Original &original, const Options &options) {
   const double moved_by = original.boundary_moved_by / original.box.diagonal();
   if (options.max_deviation == 0 || options.max_deviation > moved_by) return;
-  fail(Status::mesh_intersecting,
-       "tets are turned over at the boundary, of which vertices would have to be moved by %s of the diagonal "
-       "(max-deviation: %s)",
+  fail(Status::mesh_intersecting, "%s would have to be moved by %s of the diagonal (max-deviation: %s)",
+       original.moves.empty() ? "vertices of cracks that a field jumps across"
+                              : "tets are turned over at the boundary, of which vertices",
        number(moved_by).c_str(), number(options.max_deviation).c_str());
 }
 

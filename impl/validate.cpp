@@ -11,7 +11,6 @@
 #include "nested_solids.hpp"
 #include "predicates.hpp"
 #include "prepare.hpp"
-#include "surface_distance.hpp"
 #include "surface_topology.hpp"
 #include "untangle.hpp"
 #include "whole_arrays.hpp"
@@ -263,16 +262,7 @@ Error verdict_on(const Input &input, const Options &options, const Defects &defe
     Boundary boundary(job.memory);
     prepare_with_boundary(input, options, job, original, boundary);
     refuse_moves(original, options);
-    Surface surface(job.memory);
-    make_surface(original.view, boundary.triangles, job, surface);
-    SurfaceTopology topology(job.memory);
-    find_topology(surface.points, surface.triangles, job, topology, host_numbers(surface, input.index_base));
-    TreeOnDemand tree(surface);
-    ContactsOnDemand contacts;
-    if (takes_contacts(options))
-      refuse_overlaps(surface, topology, contacts, tree, input.index_base, job);
-    else
-      refuse_intersections(surface, topology, tree, input.index_base, job);
+    refuse_unsound(original.view, boundary.triangles, takes_contacts(options), input.index_base, job);
   } catch (const Error &error) {
     if (!blames_the_mesh(error)) throw;
     return error;

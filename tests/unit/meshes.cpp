@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include "extract_boundary.hpp"
 #include "geometry.hpp"
@@ -120,30 +121,65 @@ Mesh slab_with_slits(int n, int layers) {
   return slab;
 }
 
-Mesh cracked_cube(int n, double opening) {
-  Mesh cube = kuhn_cube(n);
-  const std::size_t points = cube.points.size();
-  std::vector<std::int32_t> above(points);
-  for (std::size_t v = 0; v < points; v++) {
-    const Vec3 p = cube.points[v];
-    above[v] = std::int32_t(v);
-    if (p.z != 0.5 || std::hypot(p.x - 0.5, p.y - 0.5) > 0.3) continue;
-    above[v] = std::int32_t(cube.points.size());
-    cube.points.push_back(p + Vec3(0, 0, opening));
-  }
-  std::vector<double> side(cube.points.size(), -1);
-  for (Tet &t : cube.tets) {
-    double z = 0;
-    for (const std::int32_t v : t) z += cube.points[std::size_t(v)].z / 4;
-    if (z < 0.5) continue;
-    for (std::int32_t &v : t)
-      if (v < std::int32_t(points)) side[std::size_t(v = above[std::size_t(v)])] = 1;
-  }
-  cube.scalars.resize(cube.points.size());
-  for (std::size_t v = 0; v < cube.points.size(); v++) {
-    const bool is_front = cube.points[v].z == 0.5 && v < points && above[v] == std::int32_t(v);
-    cube.scalars[v] = is_front ? 0 : side[v] * std::exp(-4 * std::abs(cube.points[v].z - 0.5));
-  }
+Mesh cracked(const Mesh &mesh, const std::function<bool(const Face &)> &is_cracked, const SidedField &field) {
+  std::vector<std::int32_t> side(4 * mesh.tets.size());  // of each corner of each tet, known by one of them
+  std::iota(side.begin(), side.end(), 0);
+  const auto known_by = [&](std::int32_t corner) {
+    while (side[std::size_t(corner)] != corner) corner = side[std::size_t(corner)];
+    return corner;
+  };
+  std::map<std::array<std::int32_t, 3>, std::int32_t> first;  // the tet that has a face, of two
+  for (std::size_t t = 0; t < mesh.tets.size(); t++)
+    for (const auto &corners : tet_face) {
+      Triangle v{};
+      Face face;
+      for (std::size_t k = 0; k < 3; k++) v[k] = mesh.tets[t][std::size_t(corners[k])];
+      for (std::size_t k = 0; k < 3; k++) face[k] = mesh.points[std::size_t(v[k])];
+      std::sort(v.begin(), v.end());
+      const auto [other, is_new] = first.emplace(v, std::int32_t(t));
+      if (is_new || is_cracked(face)) continue;
+      for (const std::int32_t u : v) {
+        const auto corner = [&](std::size_t of) {
+          const Tet &tet = mesh.tets[of];
+          return std::int32_t(4 * of) + std::int32_t(std::find(tet.begin(), tet.end(), u) - tet.begin());
+        };
+        side[std::size_t(known_by(corner(t)))] = known_by(corner(std::size_t(other->second)));
+      }
+    }
+  Mesh apart;
+  apart.tets = mesh.tets;
+  std::map<std::int32_t, std::int32_t> point;  // of each side
+  std::vector<Vec3> towards;
+  for (std::size_t t = 0; t < mesh.tets.size(); t++)
+    for (std::size_t k = 0; k < 4; k++) {
+      const Vec3 &p = mesh.points[std::size_t(mesh.tets[t][k])];
+      const auto [of, is_new] = point.emplace(known_by(std::int32_t(4 * t + k)), std::int32_t(apart.points.size()));
+      if (is_new) apart.points.push_back(p);
+      if (is_new) towards.push_back(Vec3(0));
+      apart.tets[t][k] = of->second;
+      for (const std::int32_t v : mesh.tets[t]) towards[std::size_t(of->second)] += mesh.points[std::size_t(v)] - p;
+    }
+  for (std::size_t v = 0; v < apart.points.size(); v++) apart.scalars.push_back(field(apart.points[v], towards[v]));
+  return apart;
+}
+
+Mesh cracked_cube(int n, double jump) {
+  const auto is_in_disc = [](const Face &face) {
+    return std::all_of(face.begin(), face.end(),
+                       [](const Vec3 &p) { return p.z == 0.5 && std::hypot(p.x - 0.5, p.y - 0.5) < 0.35; });
+  };
+  return cracked(kuhn_cube(n), is_in_disc, [&](const Vec3 &p, const Vec3 &towards) {
+    const double open = std::max(0.0, 0.35 - std::hypot(p.x - 0.5, p.y - 0.5)) / 0.35;
+    const double side = p.z == 0.5 ? towards.z : p.z - 0.5;
+    return 0.2 * p.x + std::copysign(0.5 * jump, side) * open * std::exp(-4 * std::abs(p.z - 0.5));
+  });
+}
+
+Mesh open_cracked_cube(int n, double by) {
+  Mesh cube = cracked_cube(n, 1);
+  for (std::size_t v = 0; v < cube.points.size(); v++)
+    for (std::size_t u = v + 1; u < cube.points.size(); u++)
+      if (cube.points[u] == cube.points[v]) cube.points[cube.scalars[v] > cube.scalars[u] ? v : u].z += by;
   return cube;
 }
 

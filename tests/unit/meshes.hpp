@@ -56,9 +56,16 @@ Mesh refined_cubes(int n, const std::function<int(const Cell &)> &level_of, unsi
 /// A slab of n x n x layers cells with slits in its middle, each one cell wide and next to nothing high.
 Mesh slab_with_slits(int n, int layers);
 
-/// The cube [0, 1]^3 in n^3 cells, n even, with a round crack in the middle that is so far open: points above it are of
-/// their own, but at its front. Scalars are 1 above the crack and -1 below, less farther away from it.
-Mesh cracked_cube(int n, double opening);
+/// Faces between tets for which `is_cracked` holds become two: points there are one for each of the sides that the
+/// cracks leave, at one place. A field may be told from which side it is asked: `towards` leads into it.
+using Face = std::array<Vec3, 3>;
+using SidedField = std::function<double(const Vec3 &, const Vec3 &towards)>;
+Mesh cracked(const Mesh &mesh, const std::function<bool(const Face &)> &is_cracked, const SidedField &field);
+
+/// The cube [0, 1]^3 in n^3 cells, n even, with a round crack in the middle, across which the field jumps by `jump`.
+Mesh cracked_cube(int n, double jump);
+/// It is open by so much.
+Mesh open_cracked_cube(int n, double by);
 
 /// n^3 cells, each solid with the given probability, the lowest always: touches itself at edges and vertices, has
 /// tunnels, cavities and several components.

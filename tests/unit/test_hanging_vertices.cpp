@@ -93,7 +93,7 @@ TEST_F(HangingVertices, AreNoneInSoundMeshes) {
 /// Where a crack is hardly open, one side's vertices are next to the ends of the other side's edges.
 TEST_F(HangingVertices, AreNoneAcrossCracks) {
   for (const double opening : {1e-4, 3e-6, 1e-6, 1e-8}) {
-    const Mesh mesh = cracked_cube(16, opening);
+    const Mesh mesh = open_cracked_cube(16, opening);
     prepare(mesh);
     EXPECT_EQ(original.divided_tets, 0) << opening;
     EXPECT_EQ(oriented_triangles(boundary.triangles), brute_boundary(mesh)) << opening;

@@ -155,7 +155,7 @@ TEST_F(Slits, CareIsFoundToBeNeededOnce) {
 /// However little they are open, if it is more than rounding: each side keeps its values.
 TEST_F(Slits, CracksStayOpen) {
   for (const double opening : {1e-3, 1e-6}) {
-    slab = cracked_cube(16, opening);
+    slab = open_cracked_cube(16, opening);
     for (const auto &[ratio, bound] : {std::pair(0.2, 0.0), {0.0, 0.02}}) {
       options.target_ratio = ratio;
       options.max_error = bound;

@@ -1,0 +1,354 @@
+#include "cracks.hpp"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <limits>
+#include <utility>
+
+#include "disjoint_sets.hpp"
+#include "face_sweep.hpp"
+#include "field_jumps.hpp"
+#include "geometry.hpp"
+#include "triangle_corners.hpp"
+
+namespace tetlod {
+
+namespace {
+
+/// Of the boundary as submitted.
+struct Face {
+  Triangle points;  ///< counter-clockwise seen from outside
+  std::int32_t tet;
+};
+
+/// Two faces that lie on one another at an edge, one of whose ends at least both have a point of their own at.
+struct Pair {
+  std::array<std::int32_t, 2> face;
+  std::array<std::pair<std::int32_t, std::int32_t>, 2> end;  ///< the points of the one and of the other
+  bool is_crack = false;
+};
+
+/// Of length 1, as the normals are: that leans towards them all, by as much as can be, but for a hundredth; 0: none
+/// does by so much.
+Vec3 direction_towards(Span<const Vec3> normals, double least) {
+  constexpr int most_steps = 1000;
+  constexpr double enough = 0.5;
+  Vec3 nearest = normals[0];  // to the origin, in the convex hull
+  for (int step = 0; step < most_steps; step++) {
+    const Vec3 &last = *std::min_element(normals.begin(), normals.end(), [&](const Vec3 &a, const Vec3 &b) {
+      return glm::dot(a, nearest) < glm::dot(b, nearest);
+    });
+    const double length = glm::length(nearest), lean = length > 0 ? glm::dot(last, nearest) / length : 0;
+    if (lean >= std::max(least, enough * length)) return nearest / length;
+    if (length < least) break;  // nor is any other
+    const Vec3 way = last - nearest;
+    nearest += std::clamp(-glm::dot(nearest, way) / length2(way), 0.0, 1.0) * way;
+  }
+  return Vec3(0);
+}
+
+class CracksOfMesh {
+ public:
+  CracksOfMesh(const Input &input, Span<const Vec3> points, Span<const Tet> tets, Span<const std::uint8_t> used,
+               Job &job, Array<std::int32_t> &representative)
+      : input_(input),
+        points_(points),
+        tets_(tets),
+        used_(used),
+        job_(job),
+        representative_(representative),
+        place_(representative.begin(), representative.end(), &job.memory),
+        faces_(&job.memory),
+        pairs_(&job.memory),
+        cracks_(representative.size(), job.memory),
+        is_at_crack_(representative.size(), 0, &job.memory) {}
+
+  Cracks keep_open(double diagonal) {
+    Cracks found(job_.memory);
+    find_faces();
+    if (faces_.empty()) return found;
+    find_pairs();
+    found.sees_values = are_between_large_pieces();
+    if (found.sees_values && any_jumps()) {
+      split_places();
+      open(diagonal, found);
+    }
+    return found;
+  }
+
+ private:
+  static constexpr std::int32_t large = 64;  // tets
+
+  const Vec3 &at(std::int32_t v) const { return points_[std::size_t(v)]; }
+  std::int32_t place(std::int32_t v) const { return place_[std::size_t(v)]; }
+
+  bool is_usable(const Tet &t) const {
+    return !has_repeated_vertex(t) &&
+           std::all_of(t.begin(), t.end(), [&](std::int32_t v) { return used_[std::size_t(v)] != 0; });
+  }
+
+  /// visit(first, last) of the uses of each face; excluded: of each tet.
+  template <class Visit>
+  void for_faces(Span<const std::uint8_t> excluded, const Visit &visit) const {
+    MeshView view{points_, {}, tets_};
+    view.fields = 0;
+    for_each_face(view, excluded, job_, visit);
+  }
+
+  /// Of each point, how many are at its place of parts with so many tets; as points hang together that tets have in
+  /// common.
+  Array<std::int32_t> count_points_of_large_parts() const {
+    DisjointSets parts(place_.size(), job_.memory);
+    Array<std::int32_t> tets(place_.size(), 0, &job_.memory), points(place_.size(), 0, &job_.memory);
+    for (std::size_t t = 0; t < tets_.size(); t++) {
+      job_.poll_at(t, 0.9);
+      if (!is_usable(tets_[t])) continue;
+      for (const std::int32_t v : tets_[t]) parts.join(tets_[t][0], v);
+    }
+    for (const Tet &t : tets_)
+      if (is_usable(t)) tets[std::size_t(parts.lowest(t[0]))]++;
+    for (std::size_t v = 0; v < place_.size(); v++)
+      points[std::size_t(place_[v])] += tets[std::size_t(parts.lowest(std::int32_t(v)))] >= large;
+    for (std::size_t v = 0; v < place_.size(); v++) points[v] = points[std::size_t(place_[v])];
+    return points;
+  }
+
+  /// Those at places of several points of large parts, or smaller ones that are there, too.
+  void find_faces() {
+    const Array<std::int32_t> points = count_points_of_large_parts();
+    if (std::all_of(points.begin(), points.end(), [](std::int32_t count) { return count < 2; })) return;
+    const auto any_doubled = [&](const auto &simplex) {
+      return std::any_of(simplex.begin(), simplex.end(), [&](std::int32_t v) { return points[std::size_t(v)] > 1; });
+    };
+    Array<std::uint8_t> excluded(&job_.memory);
+    excluded.reserve(tets_.size());
+    for (std::size_t t = 0; t < tets_.size(); t++) {
+      job_.poll_at(t, 0.9);
+      excluded.push_back(!any_doubled(tets_[t]) || !is_usable(tets_[t]));
+    }
+    for_faces(excluded, [&](const FaceUse *first, const FaceUse *last) {
+      if (last - first > 1) return;
+      const Face face = face_of(*first);
+      if (any_doubled(face.points)) faces_.push_back(face);
+    });
+  }
+
+  Face face_of(const FaceUse &use) const {
+    const int *corner = tet_face[use.corner()];
+    const Tet &t = tets_[use.tet()];
+    Triangle points{t[std::size_t(corner[0])], t[std::size_t(corner[1])], t[std::size_t(corner[2])]};
+    if (det(at(t[0]), at(t[1]), at(t[2]), at(t[3])) < 0) std::swap(points[1], points[2]);
+    return {points, std::int32_t(use.tet())};
+  }
+
+  Vec3 outward(const Triangle &t) const { return area_vector(at(t[0]), at(t[1]), at(t[2])); }
+
+  /// The same triangles where hexahedra were split in one way on both sides, others that cross them where not.
+  void find_pairs() {
+    Array<Triangle> at_places(&job_.memory);
+    at_places.reserve(faces_.size());
+    for (const Face &face : faces_) {
+      Triangle t = face.points;
+      for (std::int32_t &v : t) v = place(v);
+      at_places.push_back(t);
+    }
+    const TriangleCorners corners(place_.size(), at_places, job_);
+    for (std::size_t v = 0; v < place_.size(); v++) {
+      job_.poll_at(v, 0.9);
+      const Span<const Corner> here = corners.of(std::int32_t(v));
+      for (const Corner &one : here)
+        for (const Corner &other : here)
+          if (one.next == other.last && std::int32_t(v) < one.next)
+            add_if_back_to_back(one.triangle, other.triangle, {std::int32_t(v), one.next});
+    }
+  }
+
+  void add_if_back_to_back(std::int32_t one, std::int32_t other, const std::array<std::int32_t, 2> &places) {
+    constexpr double least_cosine = 0.9;
+    const Triangle &s = faces_[std::size_t(one)].points, &t = faces_[std::size_t(other)].points;
+    Pair pair{{one, other}, {}};
+    for (std::size_t k = 0; k < 2; k++) pair.end[k] = {point_at(s, places[k]), point_at(t, places[k])};
+    const bool is_doubled = pair.end[0].first != pair.end[0].second || pair.end[1].first != pair.end[1].second;
+    const Vec3 m = outward(s), n = outward(t);
+    if (is_doubled && glm::dot(m, n) < -least_cosine * glm::length(m) * glm::length(n)) pairs_.push_back(pair);
+  }
+
+  std::int32_t point_at(const Triangle &t, std::int32_t of_place) const {
+    return *std::find_if(t.begin(), t.end(), [&](std::int32_t v) { return place(v) == of_place; });
+  }
+
+  /// Of tets that have faces in common as they were submitted. True: some are, and may be cracks.
+  bool are_between_large_pieces() {
+    if (pairs_.empty()) return false;
+    Array<std::uint8_t> excluded(&job_.memory);
+    for (const Tet &t : tets_) excluded.push_back(!is_usable(t));
+    DisjointSets pieces(tets_.size(), job_.memory);
+    for_faces(excluded, [&](const FaceUse *first, const FaceUse *last) {
+      for (const FaceUse *use = first + 1; use < last; use++)
+        pieces.join(std::int32_t(first->tet()), std::int32_t(use->tet()));
+    });
+    Array<std::int32_t> count(tets_.size(), 0, &job_.memory);
+    for (std::size_t t = 0; t < count.size(); t++) count[std::size_t(pieces.lowest(std::int32_t(t)))]++;
+    bool any = false;
+    for (Pair &pair : pairs_) {
+      pair.is_crack = std::all_of(pair.face.begin(), pair.face.end(), [&](std::int32_t face) {
+        return count[std::size_t(pieces.lowest(faces_[std::size_t(face)].tet))] >= large;
+      });
+      any |= pair.is_crack;
+    }
+    return any;
+  }
+
+  /// visit(v, u): two points at one place.
+  template <class Visit>
+  static void for_doubled(const Pair &pair, const Visit &visit) {
+    for (const auto &[v, u] : pair.end)
+      if (v != u) visit(v, u);
+  }
+
+  /// Those across which no field does are none, unless it does beside them.
+  bool any_jumps() {
+    const FieldJumps fields(input_, used_, job_);
+    Array<std::uint8_t> jumps(place_.size(), 0, &job_.memory);  // of each crack
+    for (const Pair &pair : pairs_) {
+      std::int32_t first = -1;
+      if (pair.is_crack)
+        for_doubled(pair, [&](std::int32_t v, std::int32_t) {
+          if (first < 0) first = place(v);
+          cracks_.join(first, place(v));
+        });
+    }
+    for (const Pair &pair : pairs_)
+      if (pair.is_crack)
+        for_doubled(pair, [&](std::int32_t v, std::int32_t u) { jumps[of_crack(v)] |= fields.jumps(v, u); });
+    bool any = false;
+    for (Pair &pair : pairs_) {
+      if (pair.is_crack)
+        for_doubled(pair, [&](std::int32_t v, std::int32_t) { pair.is_crack = jumps[of_crack(v)] != 0; });
+      if (!pair.is_crack) continue;
+      any = true;
+      for_doubled(pair, [&](std::int32_t v, std::int32_t) { is_at_crack_[std::size_t(place(v))] = 1; });
+    }
+    return any;
+  }
+
+  /// Known by its lowest place.
+  std::size_t of_crack(std::int32_t v) { return std::size_t(cracks_.lowest(place(v))); }
+
+  /// Each side's lowest point stands for it.
+  void split_places() {
+    DisjointSets side(place_.size(), job_.memory);
+    for (const Pair &pair : pairs_)
+      if (!pair.is_crack) for_doubled(pair, [&](std::int32_t v, std::int32_t u) { side.join(v, u); });
+    for (std::size_t v = 0; v < place_.size(); v++)
+      if (is_at_crack_[std::size_t(place_[v])]) representative_[v] = side.lowest(std::int32_t(v));
+  }
+
+  /// A point that stands for a side, and a face of the crack, not at the crack's front there.
+  using PointAndFace = std::pair<std::int32_t, std::int32_t>;
+
+  Array<PointAndFace> faces_of_sides() const {
+    Array<PointAndFace> faces(&job_.memory);
+    for (const Pair &pair : pairs_)
+      for (const auto &[v, u] : pair.end) {
+        const std::int32_t one = representative_[std::size_t(v)], other = representative_[std::size_t(u)];
+        if (!pair.is_crack || one == other) continue;
+        faces.push_back({one, pair.face[0]});
+        faces.push_back({other, pair.face[1]});
+      }
+    std::sort(faces.begin(), faces.end(), PollingLess(job_, 0.9, std::less<PointAndFace>()));
+    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    return faces;
+  }
+
+  /// Each side goes back into its own.
+  void open(double diagonal, Cracks &found) {
+    const Array<PointAndFace> faces = faces_of_sides();
+    const Array<std::uint8_t> flagged = find_flagged();
+    Array<std::int32_t> stay(representative_.size(), 0, &job_.memory);  // of each place, how many sides do
+    for (std::size_t first = 0, last = 0; first < faces.size(); first = last) {
+      const auto v = std::size_t(faces[first].first);
+      while (last < faces.size() && faces[last].first == faces[first].first) last++;
+      const Vec3 way = flagged[v] ? Vec3(0) : way_back({faces.data() + first, last - first}, opening * diagonal);
+      if (way == Vec3(0))
+        stay[std::size_t(place_[v])]++;
+      else
+        found.opened.push_back({std::int32_t(v), points_[v] + way});
+    }
+    close_where_several(stay, found);
+  }
+
+  /// From each face by so much, or by less where edges are short; 0: there is no such way.
+  Vec3 way_back(Span<const PointAndFace> of_faces, double by) const {
+    Array<Vec3> normals(&job_.memory);
+    double edge = std::numeric_limits<double>::infinity();
+    for (const PointAndFace &of : of_faces) {
+      const Triangle &points = faces_[std::size_t(of.second)].points;
+      const Vec3 normal = outward(points);
+      normals.push_back(normal / glm::length(normal));  // it lies back to back on another
+      edge = std::min(edge, shortest_edge(points));
+    }
+    const Vec3 direction = direction_towards(normals, least_lean);
+    double lean = 1;
+    for (const Vec3 &normal : normals) lean = std::min(lean, glm::dot(normal, direction));
+    return -std::min(by / std::max(lean, least_lean), least_part * edge) * direction;
+  }
+
+  /// Sides of a place stay where they are: all of their crack become one again.
+  void close_where_several(Span<const std::int32_t> stay, Cracks &found) {
+    Array<std::uint8_t> is_closed(place_.size(), 0, &job_.memory);  // of each crack
+    for (std::size_t v = 0; v < place_.size(); v++)
+      if (stay[v] > 1) is_closed[of_crack(std::int32_t(v))] = 1;
+    for (std::size_t v = 0; v < place_.size(); v++) {
+      if (is_closed[of_crack(std::int32_t(v))]) representative_[v] = place_[v];
+      found.split += representative_[v] == std::int32_t(v) && place_[v] != std::int32_t(v);
+    }
+    Moves &opened = found.opened;
+    const auto is_at_closed = [&](const Move &move) { return is_closed[of_crack(move.vertex)] != 0; };
+    opened.erase(std::remove_if(opened.begin(), opened.end(), is_at_closed), opened.end());
+    for (const Move &move : opened)
+      found.opened_by = std::max(found.opened_by, glm::distance(points_[std::size_t(move.vertex)], move.to));
+  }
+
+  double shortest_edge(const Triangle &t) const {
+    const auto way = [&](std::size_t i, std::size_t j) { return glm::distance(at(t[i]), at(t[j])); };
+    return std::min({way(0, 1), way(1, 2), way(0, 2)});
+  }
+
+  /// Of each point that stands for others, too, whether the host flags one of them.
+  Array<std::uint8_t> find_flagged() const {
+    Array<std::uint8_t> flagged(representative_.size(), 0, &job_.memory);
+    for (std::size_t v = 0; v < flagged.size() && std::int64_t(v) < input_.flags.tuples; v++)
+      if (input_.flags.at<std::uint8_t>(std::int64_t(v), 0)) flagged[std::size_t(representative_[v])] = 1;
+    return flagged;
+  }
+
+  /// By which each side goes back, of the diagonal: what lies on a side is not taken for something on the other.
+  static constexpr double opening = 5e-7;
+  /// But of the shortest edge beside it, at most: so that no tet turns over.
+  static constexpr double least_part = 1e-3;
+  /// Cosine of the angle between a way back and the faces' normals.
+  static constexpr double least_lean = 0.05;
+
+  const Input &input_;
+  Span<const Vec3> points_;
+  Span<const Tet> tets_;
+  Span<const std::uint8_t> used_;
+  Job &job_;
+  Array<std::int32_t> &representative_;
+  Array<std::int32_t> place_;  // of each point, as the lowest one there
+  Array<Face> faces_;
+  Array<Pair> pairs_;
+  DisjointSets cracks_;              // of places
+  Array<std::uint8_t> is_at_crack_;  // of each place
+};
+
+}  // namespace
+
+Cracks keep_cracks_open(const Input &input, Span<const Vec3> points, Span<const Tet> tets,
+                        Span<const std::uint8_t> used, double diagonal, Job &job, Array<std::int32_t> &representative) {
+  return CracksOfMesh(input, points, tets, used, job, representative).keep_open(diagonal);
+}
+
+}  // namespace tetlod

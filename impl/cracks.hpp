@@ -1,0 +1,25 @@
+// Cracks: faces inside a mesh whose two sides have points of their own at one place, with values of their own.
+#pragma once
+#include "job.hpp"
+#include "pipeline.hpp"
+
+namespace tetlod {
+
+struct Cracks {
+  explicit Cracks(Memory &memory) : opened(&memory) {}
+  std::int64_t split = 0;    ///< points that were merged, and stand for a side now
+  Moves opened;              ///< points of their sides, moved into their own, so that the sides lie apart
+  double opened_by = 0;      ///< the farthest of these
+  bool sees_values = false;  ///< with others there might be more or fewer
+};
+
+/// Faces that tets have in common only by merging points, where the tets on both sides hang together by other faces,
+/// or with 63 others and more each: they stay two where, somewhere on those that hang together, a field that steers
+/// jumps by more than a hundredth of its range. Others, as of a mesh that is bent to a ring, become one.
+/// representative: as merge_points() or keep_touching_parts_apart() leaves it; of points at a crack, those of each side
+/// become one of its own. diagonal: of the mesh. Points that the host flags are not moved. Tets with an unused vertex
+/// are none.
+Cracks keep_cracks_open(const Input &input, Span<const Vec3> points, Span<const Tet> tets,
+                        Span<const std::uint8_t> used, double diagonal, Job &job, Array<std::int32_t> &representative);
+
+}  // namespace tetlod

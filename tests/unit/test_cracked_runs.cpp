@@ -1,0 +1,127 @@
+// Cracks that a field jumps across: a run keeps the values of both sides, or has them be one.
+#include "carry_fields.hpp"
+#include "validate.hpp"
+#include "whole_run.hpp"
+
+namespace tetlod {
+namespace {
+
+using namespace test;
+
+class CrackedRuns : public WholeRun {
+ protected:
+  static constexpr int cells = 12;
+
+  /// How far the values of the result are apart, in the middle of the crack.
+  double jump_of_result() const {
+    double low = 1e9, high = -1e9;
+    for (std::size_t v = 0; v < mesh().points.size(); v++) {
+      if (glm::distance(mesh().points[v], Vec3(0.5)) > 0.1) continue;
+      low = std::min(low, mesh().scalars[v]);
+      high = std::max(high, mesh().scalars[v]);
+    }
+    return high - low;
+  }
+
+  Result run_later(const Mesh &original, Prepared &prepared) {
+    Result later(host.memory);
+    run(input_of(original), options, worker, prepared, host.job, later);
+    return later;
+  }
+};
+
+TEST_F(CrackedRuns, KeepTheValuesOfBothSides) {
+  const Mesh original = cracked_cube(cells, 1);
+  for (const auto &[ratio, bound] : {std::pair(0.3, 0.0), {0.1, 0.0}, {0.0, 0.03}, {0.0, 0.01}})
+    for (const std::int64_t effort : {effort_fast, effort_accurate}) {
+      options.target_ratio = ratio;
+      options.max_error = bound;
+      options.effort = effort;
+      simplify(original);
+      expect_sound(original, 0.01);
+      EXPECT_LE(report().max_error, bound > 0 ? bound : 0.05);
+      EXPECT_GT(jump_of_result(), 0.7);
+      EXPECT_GE(report().max_deviation, 2e-7) << "by which the sides were moved";
+      EXPECT_LE(report().max_deviation, 0.01);
+    }
+}
+
+/// As a run of its own would do it: while no field jumps the sides are one.
+TEST_F(CrackedRuns, ALaterStepHasItsOwn) {
+  Prepared prepared(host.memory);
+  options.target_ratio = 0.2;
+  for (const double jump : {0.0, 1.0, 0.5, 0.0}) {
+    const Mesh step = cracked_cube(cells, jump);
+    const Result later = run_later(step, prepared);
+    simplify(step);
+    EXPECT_EQ(later.report.hash, report().hash) << jump;
+    EXPECT_EQ(later.report.components, jump > 0 ? 2 : 1) << jump;
+  }
+  EXPECT_GT(run_later(cracked_cube(cells, 0), prepared).report.reused_tets, 0);
+}
+
+/// Sides that are cut in different ways reach into each other where they are bent.
+TEST_F(CrackedRuns, SidesThatWouldCrossAreOne) {
+  constexpr int n = 8;
+  Mesh original = kuhn_solid({n, n, n}, [](const Cell &) { return true; });
+  Mesh above = original;
+  transform(above, [](const Vec3 &p) { return Vec3(n - p.x, p.y, p.z + n); });
+  const auto below = std::int32_t(original.points.size());
+  append(original, above);
+  for (std::int32_t v = below; v < std::int32_t(original.points.size()); v++) {
+    const auto same =
+        std::find(original.points.begin(), original.points.begin() + below, original.points[std::size_t(v)]);
+    if (same == original.points.begin() + below || std::hypot(same->x - n / 2, same->y - n / 2) < 0.3 * n) continue;
+    for (Tet &t : original.tets) std::replace(t.begin(), t.end(), v, std::int32_t(same - original.points.begin()));
+  }
+  for (std::int32_t v = 0; v < std::int32_t(original.points.size()); v++)
+    original.scalars[std::size_t(v)] = v < below ? 0 : 1;
+  for (const double bend : {0.0, 0.02}) {
+    Mesh bent = original;
+    transform(bent, [&](const Vec3 &p) { return Vec3(p.x, p.y, p.z + bend * p.x * p.y); });
+    for (const double ratio : {0.5, 0.2}) {
+      options.target_ratio = ratio;
+      simplify(bent);
+      EXPECT_EQ(report().components, bend > 0 ? 1 : 2);
+      EXPECT_EQ(report().merged_points > 0, bend > 0);
+      const SurfaceFacts is = facts_of(mesh().boundary);
+      EXPECT_TRUE(is.closed);
+      EXPECT_EQ(is.nonmanifold_edges, 0);
+      EXPECT_EQ(is.components, bend > 0 ? 1 : 2);
+    }
+    EXPECT_EQ(verdict_on(input_of(bent), options, find_defects(input_of(bent), options, host.job), host.job).status(),
+              Status::ok);
+  }
+}
+
+TEST_F(CrackedRuns, AStencilIsThatOfTheRun) {
+  const Mesh original = cracked_cube(cells, 1), without = cracked_cube(cells, 0);
+  options.target_ratio = 0.3;
+  Input with_field = input_of(original);
+  with_field.fields.push_back({"field", Association::point, with_field.scalars});
+  run(with_field, options, worker, host.job, result);
+  const Stencil stencil = std::move(result.stencil);
+  for (const bool is_prepared : {false, true}) {
+    Prepared prepared(host.memory);
+    if (is_prepared) estimate_memory(input_of(original), options, prepared, host.job);
+    result.stencil = Stencil(host.memory);
+    find_stencil(input_of(original), options, prepared, host.job, result);
+    EXPECT_EQ(result.stencil.ids, stencil.ids);
+    EXPECT_EQ(result.stencil.weights, stencil.weights);
+    result.stencil = Stencil(host.memory);
+    EXPECT_THROW(find_stencil(input_of(without), options, prepared, host.job, result), Error);
+  }
+}
+
+/// The sides would have to be moved by more.
+TEST_F(CrackedRuns, ADeviationOfNextToNothingIsRefused) {
+  options.target_ratio = 0.3;
+  options.max_deviation = 1e-7;
+  EXPECT_EQ(status(cracked_cube(cells, 1)), Status::mesh_intersecting);
+  options.max_deviation = 1e-3;
+  EXPECT_EQ(status(cracked_cube(cells, 1)), Status::ok);
+  EXPECT_LE(report().max_deviation, options.max_deviation);
+}
+
+}  // namespace
+}  // namespace tetlod
