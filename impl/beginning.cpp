@@ -89,7 +89,7 @@ void Beginning::prepare() {
 void Beginning::extract() {
   const StageTimer timer(Stage::boundary, job_, report_);
   if (!report_.reused_tets) prepare_boundary(input_, options_, job_, original_, boundary_);
-  prepared_.complete(input_, job_);
+  prepared_.complete();
   result_.torn = original_.torn;
   result_.opened = original_.opened;
   result_.moves = original_.moves;

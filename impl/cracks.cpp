@@ -69,8 +69,7 @@ class CracksOfMesh {
     find_faces();
     if (faces_.empty()) return found;
     find_pairs();
-    found.sees_values = are_between_large_pieces();
-    if (found.sees_values && any_jumps()) {
+    if (are_between_large_pieces() && any_jumps(found)) {
       split_places();
       open(diagonal, found);
     }
@@ -208,8 +207,8 @@ class CracksOfMesh {
   }
 
   /// Those across which no field does are none, unless it does beside them.
-  bool any_jumps() {
-    const FieldJumps fields(input_, used_, job_);
+  bool any_jumps(Cracks &found) {
+    FieldJumps fields(input_, used_, job_);
     Array<std::uint8_t> jumps(place_.size(), 0, &job_.memory);  // of each crack
     for (const Pair &pair : pairs_) {
       std::int32_t first = -1;
@@ -221,7 +220,8 @@ class CracksOfMesh {
     }
     for (const Pair &pair : pairs_)
       if (pair.is_crack)
-        for_doubled(pair, [&](std::int32_t v, std::int32_t u) { jumps[of_crack(v)] |= fields.jumps(v, u); });
+        for_doubled(pair, [&](std::int32_t v, std::int32_t u) { jumps[of_crack(v)] |= fields.ask(v, u); });
+    found.asked = std::move(fields).asked();
     bool any = false;
     for (Pair &pair : pairs_) {
       if (pair.is_crack)

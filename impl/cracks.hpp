@@ -6,11 +6,11 @@
 namespace tetlod {
 
 struct Cracks {
-  explicit Cracks(Memory &memory) : opened(&memory) {}
-  std::int64_t split = 0;    ///< points that were merged, and stand for a side now
-  Moves opened;              ///< points of their sides, moved into their own, so that the sides lie apart
-  double opened_by = 0;      ///< the farthest of these
-  bool sees_values = false;  ///< with others there might be more or fewer
+  explicit Cracks(Memory &memory) : opened(&memory), asked(&memory) {}
+  std::int64_t split = 0;  ///< points that were merged, and stand for a side now
+  Moves opened;            ///< points of their sides, moved into their own, so that the sides lie apart
+  double opened_by = 0;    ///< the farthest of these
+  Jumps asked;             ///< on which that depends
 };
 
 /// Faces that tets have in common only by merging points, where the tets on both sides hang together by other faces,

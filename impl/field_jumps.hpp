@@ -1,4 +1,4 @@
-// Where the fields that steer jump between two parts of a mesh that have points of their own at one place.
+// Where the fields that steer jump between two points of a mesh at one place: of two parts, or two sides of a crack.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -12,7 +12,7 @@ namespace tetlod {
 
 class FieldJumps {
  public:
-  FieldJumps(const Input &input, Span<const std::uint8_t> used, Job &job) : input_(input) {
+  FieldJumps(const Input &input, Span<const std::uint8_t> used, Job &job) : input_(input), asked_(&job.memory) {
     for (std::size_t k = 0; k < input.steering_fields(); k++) {
       double low = std::numeric_limits<double>::infinity(), high = -low;
       for (std::size_t v = 0; v < used.size(); v++) {
@@ -31,6 +31,12 @@ class FieldJumps {
       if (std::abs(value(k, std::size_t(v)) - value(k, std::size_t(u))) > most_[k]) return true;
     return false;
   }
+  /// The same, and it is kept that somebody has asked.
+  bool ask(std::int32_t v, std::int32_t u) {
+    asked_.push_back({v, u, jumps(v, u)});
+    return asked_.back().jumps;
+  }
+  Jumps asked() && { return std::move(asked_); }
 
  private:
   static constexpr double share = 0.01;
@@ -41,6 +47,15 @@ class FieldJumps {
   }
   const Input &input_;
   std::array<double, most_fields> most_{};
+  Jumps asked_;
 };
+
+/// Whether they are what they were with other values.
+inline bool are_same_jumps(Span<const MayJump> asked, const Input &input, Span<const std::uint8_t> used, Job &job) {
+  if (asked.empty()) return true;
+  const FieldJumps fields(input, used, job);
+  return std::all_of(asked.begin(), asked.end(),
+                     [&](const MayJump &at) { return fields.jumps(at.one, at.other) == at.jumps; });
+}
 
 }  // namespace tetlod

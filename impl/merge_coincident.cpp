@@ -63,8 +63,9 @@ Merged merge_coincident(const Input &input, Span<const Vec3> points, Span<const 
   KeptApart kept = keep_touching_parts_apart(input, points, tets, used, job, representative);
   if (opens_cracks) merged.cracks = keep_cracks_open(input, points, tets, used, box.diagonal(), job, representative);
   merged.points = kept.merged - merged.cracks.split;
-  merged.sees_values = kept.sees_values || merged.cracks.sees_values || !opens_cracks;
-  merged.depends = merged.points < before || merged.sees_values;
+  merged.asked = std::move(kept.asked);
+  merged.asked.insert(merged.asked.end(), merged.cracks.asked.begin(), merged.cracks.asked.end());
+  merged.depends = merged.points < before || !merged.asked.empty();
   merged.torn = std::move(kept.torn);
   return merged;
 }

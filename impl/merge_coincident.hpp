@@ -6,10 +6,10 @@
 namespace tetlod {
 
 struct Merged {
-  explicit Merged(Memory &memory) : torn(&memory), cracks(memory) {}
-  std::int64_t points = 0;   ///< merged away
-  bool depends = false;      ///< where parts may not be in contact, or may, it could be others
-  bool sees_values = false;  ///< so it could with other values
+  explicit Merged(Memory &memory) : asked(&memory), torn(&memory), cracks(memory) {}
+  std::int64_t points = 0;  ///< merged away
+  bool depends = false;     ///< where parts may not be in contact, or may, it could be others
+  Jumps asked;              ///< on which it depends, too
   Torn torn;
   Cracks cracks;
 };

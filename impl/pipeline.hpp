@@ -142,6 +142,13 @@ using Moves = Array<Move>;
 /// Pairs of parts of a mesh as submitted, each known by the lowest of its points, ascending.
 using Torn = Array<std::pair<std::int32_t, std::int32_t>>;
 
+/// Two points at one place, and whether a field that steers jumps between them.
+struct MayJump {
+  std::int32_t one, other;
+  bool jumps;
+};
+using Jumps = Array<MayJump>;
+
 struct Result {
   explicit Result(Memory &memory) : mesh(memory), stencil(memory), torn(&memory), opened(&memory), moves(&memory) {}
   TetMesh mesh;

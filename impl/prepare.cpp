@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "conforming.hpp"
+#include "field_jumps.hpp"
 #include "first_culprit.hpp"
 #include "geometry.hpp"
 #include "measure_ranges.hpp"
@@ -251,9 +252,11 @@ bool is_sound(const Original &original, const Boundary &boundary, Job &job) {
 /// Prepares the mesh anew.
 void close_cracks(const Input &input, const Options &options, Job &job, Original &original, Boundary &boundary,
                   const Moves *moves) {
+  Jumps jumps = std::move(original.jumps);
   original = Original(job.memory);
   boundary = Boundary(job.memory);
   prepare_original(input, options, job, original, false);
+  original.jumps = std::move(jumps);
   prepare_boundary(input, options, job, original, boundary, moves);
 }
 
@@ -314,7 +317,7 @@ void prepare_original(const Input &input, const Options &options, Job &job, Orig
   original.merged_points = merged.points;
   if (merged.points > 0) original.next_merged = chain_merged(representative, job);
   original.merging_depends = merged.depends;
-  original.merging_sees_values = merged.sees_values;
+  original.jumps = std::move(merged.asked);
   original.torn = std::move(merged.torn);
   take_cracks(std::move(merged.cracks), job, original);
   read_flags(input, representative, job, original);
@@ -351,7 +354,7 @@ void prepare_with_boundary(const Input &input, const Options &options, Job &job,
 
 bool renew_values(const Input &input, Job &job, Original &original) {
   check_counts(input);
-  if (original.nonfinite_points > 0) return false;
+  if (original.nonfinite_points > 0 || !are_same_jumps(original.jumps, input, original.used, job)) return false;
   const auto points = std::size_t(input.xyz[0].tuples), tets = std::size_t(input.tets.tuples);
   if (original.points.empty() && !interleaved_doubles(input.xyz)) return false;
   if (original.points.empty()) {

@@ -33,6 +33,7 @@ struct Original {
         counts(&memory),
         torn(&memory),
         opened(&memory),
+        jumps(&memory),
         moves(&memory) {}
   MeshView view;
   Array<Vec3> points;
@@ -49,7 +50,7 @@ struct Original {
   Moves opened;                       ///< points of cracks that a field jumps across: their sides lie apart
   std::int64_t merged_points = 0;     ///< coincident points that became one
   bool merging_depends = false;       ///< on whether parts may be in contact
-  bool merging_sees_values = false;   ///< which points became one depends on the values of fields that steer
+  Jumps jumps;                        ///< on which it depends which points became one
   std::int64_t nonfinite_points = 0;  ///< without a finite value, ignored with their tets
   std::int64_t dropped_tets = 0;      ///< with such a point, or with a repeated vertex, as submitted or after merging
   std::int64_t divided_tets = 0;      ///< that others take the place of: make_conforming

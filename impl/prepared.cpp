@@ -41,14 +41,6 @@ void add_nonfinite_values(const Input &input, Job &job, Fingerprint &mesh) {
   for (const SteeringField &field : input.steering) add(field.values);
 }
 
-/// Of the fields that steer.
-Fingerprint fingerprint_of_values(const Input &input, Job &job) {
-  Fingerprint values;
-  values.add(input.scalars, job);
-  for (const SteeringField &field : input.steering) values.add(field.values, job);
-  return values;
-}
-
 }  // namespace
 
 Fingerprint fingerprint_of_mesh(const Input &input, const Options &options, Job &job) {
@@ -64,13 +56,7 @@ bool Prepared::holds(const Fingerprint &mesh, const Input &input, const Options 
   surface_has_values_ = false;
   const bool would_merge_others = original.merging_depends && took_contacts_ != takes_contacts(options);
   return filled_ && !would_merge_others && stamp_of(mesh, input, options, job) == stamp_ &&
-         (!original.merging_sees_values || fingerprint_of_values(input, job) == values_) &&
          renew_values(input, job, original);
-}
-
-void Prepared::complete(const Input &input, Job &job) {
-  if (original.merging_sees_values) values_ = fingerprint_of_values(input, job);
-  filled_ = true;
 }
 
 bool Prepared::renew(const Fingerprint &mesh, const Input &input, const Options &options, Job &job) {

@@ -1,8 +1,8 @@
 // What runs of one mesh have in common, kept from each for the next. A rule for each part says what it depends on:
 //   original, boundary, surface, topology   points, tets, flags, merge-tolerance, policies (the stamp), while all
 //                                           values are finite, and whether contacts are taken, if points of
-//                                           parts that touch, or of cracks, are at one place, and values, if
-//                                           the parts have faces in common, or cracks
+//                                           parts that touch, or of cracks, are at one place, and where fields
+//                                           jump between these
 //   the decimation                          that, lambda, clean-edges, max-deviation, and the field if its cost sees it
 //   the history of collapses                the original, its values and how they count; for a warm start, others
 //   verdicts                                the decimation and how far it went, min-distance, boundary-leaf
@@ -47,7 +47,7 @@ class Prepared {
   bool renew(const Fingerprint &mesh, const Input &input, const Options &options, Job &job);
   /// The same, but if false, mesh and boundary stay what they are.
   bool holds(const Fingerprint &mesh, const Input &input, const Options &options, Job &job);
-  void complete(const Input &input, Job &job);
+  void complete() { filled_ = true; }
   void forget(Memory &memory) { *this = Prepared(memory); }
   bool empty() const { return !filled_; }
 
@@ -103,7 +103,7 @@ class Prepared {
 
   bool filled_ = false, has_surface_ = false;
   bool surface_has_values_ = false;  ///< the original's of now
-  Fingerprint stamp_, values_;       ///< values_: of fields that steer, if which points became one depends on them
+  Fingerprint stamp_;
   bool took_contacts_ = false;
   Surface surface_;
   SurfaceTopology topology_;

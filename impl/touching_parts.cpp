@@ -112,20 +112,20 @@ class TouchingParts {
   /// Which parts, as submitted, a field jumps between; but not small ones, as the cells of a method that lets it jump.
   void find_torn(const NumberedTets &tets) {
     if (std::count_if(count_.begin(), count_.end(), [&](std::int32_t count) { return count >= large; }) < 2) return;
-    const FieldJumps fields(input_, used_, job_);
+    FieldJumps fields(input_, used_, job_);
     Torn &torn = kept_.torn;
     for_neighbours(tets, [&](const Tet &t, const Tet &u) {
-      if (!may_be_torn(t, u)) return;
-      kept_.sees_values = true;
-      if (is_torn(fields, t, u)) torn.push_back(pair_of(t, u));
+      if (may_be_torn(t, u) && is_torn(fields, t, u)) torn.push_back(pair_of(t, u));
     });
     sort_torn();
+    Jumps asked = std::move(fields).asked();
+    kept_.asked.insert(kept_.asked.end(), asked.begin(), asked.end());
   }
 
   /// Which of those that have a face in common lie on one another beside it, however gaps are closed. True: some do.
-  /// After find_torn(), which sees values where there are such parts.
+  /// After find_torn(), which asks for jumps where there are such parts.
   bool find_ill_fitting(const NumberedTets &tets) {
-    if (!kept_.sees_values) return false;
+    if (kept_.asked.empty()) return false;
     NumberedTets closed = tets;
     if (!close_gaps_of(job_, closed)) return false;
     Torn &torn = kept_.torn;
@@ -169,10 +169,10 @@ class TouchingParts {
   }
 
   /// At a place that both have.
-  bool is_torn(const FieldJumps &fields, const Tet &t, const Tet &u) const {
+  bool is_torn(FieldJumps &fields, const Tet &t, const Tet &u) const {
     for (const std::int32_t v : t)
       for (const std::int32_t w : u)
-        if (representative_[std::size_t(v)] == representative_[std::size_t(w)] && fields.jumps(v, w)) return true;
+        if (representative_[std::size_t(v)] == representative_[std::size_t(w)] && fields.ask(v, w)) return true;
     return false;
   }
 

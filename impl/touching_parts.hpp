@@ -6,10 +6,10 @@
 namespace tetlod {
 
 struct KeptApart {
-  explicit KeptApart(Memory &memory) : torn(&memory) {}
-  std::int64_t merged = 0;   ///< points, all the same
-  Torn torn;                 ///< that have faces in common all the same
-  bool sees_values = false;  ///< with others more or fewer might be
+  explicit KeptApart(Memory &memory) : torn(&memory), asked(&memory) {}
+  std::int64_t merged = 0;  ///< points, all the same
+  Torn torn;                ///< that have faces in common all the same
+  Jumps asked;              ///< on which that depends
 };
 
 /// Where parts have a face in common the mesh goes on from the one to the other, unless both have 64 tets, and a field
