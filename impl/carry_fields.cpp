@@ -117,11 +117,12 @@ void find_stencil(const Input &input, const Options &options, Prepared &prepared
   const Fingerprint mesh = fingerprint_of_mesh(input, options, job);
   refuse_changed(mesh, result);
   Prepared fresh(job.memory);
-  const bool held = prepared.holds(mesh, input, options, job) && prepared.original.moves == result.moves;
+  const bool held = prepared.holds(mesh, input, options, job) && prepared.original.moves == result.moves &&
+                    prepared.original.opened == result.opened;
   if (!held) {
     Input bare = input;
     bare.flags = {};  // which change nothing but moves, and may be wrong
-    prepare_with_boundary(bare, options, job, fresh.original, fresh.boundary, &result.moves);
+    prepare_with_boundary(bare, options, job, fresh.original, fresh.boundary, &result.opened, &result.moves);
   }
   Prepared &of = held ? prepared : fresh;
   if (of.original.torn != result.torn || of.original.opened != result.opened)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "field_jumps.hpp"
 #include "geometry.hpp"
 #include "triangle_corners.hpp"
+#include "whole_arrays.hpp"
 
 namespace tetlod {
 
@@ -64,14 +66,14 @@ class CracksOfMesh {
         cracks_(representative.size(), job.memory),
         is_at_crack_(representative.size(), 0, &job.memory) {}
 
-  Cracks keep_open(double diagonal) {
+  Cracks keep_open(const Opening &opening) {
     Cracks found(job_.memory);
     find_faces();
     if (faces_.empty()) return found;
     find_pairs();
     if (are_between_large_pieces() && any_jumps(found)) {
       split_places();
-      open(diagonal, found);
+      open(opening, found);
     }
     return found;
   }
@@ -170,7 +172,17 @@ class CracksOfMesh {
     for (std::size_t k = 0; k < 2; k++) pair.end[k] = {point_at(s, places[k]), point_at(t, places[k])};
     const bool is_doubled = pair.end[0].first != pair.end[0].second || pair.end[1].first != pair.end[1].second;
     const Vec3 m = outward(s), n = outward(t);
-    if (is_doubled && glm::dot(m, n) < -least_cosine * glm::length(m) * glm::length(n)) pairs_.push_back(pair);
+    if (is_doubled && glm::dot(m, n) < -least_cosine * glm::length(m) * glm::length(n) && !is_between(pair, m))
+      pairs_.push_back(pair);
+  }
+
+  /// Whether it is material that lies between, as of a plate whose faces are one within the tolerance.
+  bool is_between(const Pair &pair, const Vec3 &outward_of_one) const {
+    return std::any_of(pair.end.begin(), pair.end.end(), [&](const auto &end) {
+      constexpr double rounding = 1e-6;  // of the face
+      const double thick = glm::dot(at(end.first) - at(end.second), outward_of_one);
+      return thick > rounding * std::pow(length2(outward_of_one), 0.75);
+    });
   }
 
   std::int32_t point_at(const Triangle &t, std::int32_t of_place) const {
@@ -262,44 +274,74 @@ class CracksOfMesh {
     return faces;
   }
 
-  /// Each side goes back into its own.
-  void open(double diagonal, Cracks &found) {
+  void open(const Opening &opening, Cracks &found) {
+    Array<std::uint8_t> is_closed(place_.size(), opening.made != nullptr, &job_.memory);  // of each crack
+    if (opening.made)
+      for (const Move &move : *opening.made) {
+        if (!is_at_crack_[std::size_t(place(move.vertex))]) continue;
+        is_closed[of_crack(move.vertex)] = 0;
+        found.opened.push_back(move);
+      }
+    else
+      find_ways_back(opening, is_closed, found);
+    close(is_closed, found);
+  }
+
+  /// Of each side into its own.
+  void find_ways_back(const Opening &opening, Array<std::uint8_t> &is_closed, Cracks &found) {
     const Array<PointAndFace> faces = faces_of_sides();
     const Array<std::uint8_t> flagged = find_flagged();
-    Array<std::int32_t> stay(representative_.size(), 0, &job_.memory);  // of each place, how many sides do
+    const Array<double> room = find_room();
+    Array<std::int32_t> stay(place_.size(), 0, &job_.memory);  // of each place, how many sides do
     for (std::size_t first = 0, last = 0; first < faces.size(); first = last) {
       const auto v = std::size_t(faces[first].first);
       while (last < faces.size() && faces[last].first == faces[first].first) last++;
-      const Vec3 way = flagged[v] ? Vec3(0) : way_back({faces.data() + first, last - first}, opening * diagonal);
+      const Vec3 way = flagged[v] ? Vec3(0) : way_back({faces.data() + first, last - first}, opening.by, room[v]);
       if (way == Vec3(0))
         stay[std::size_t(place_[v])]++;
       else
         found.opened.push_back({std::int32_t(v), points_[v] + way});
+      if (stay[std::size_t(place_[v])] > 1 || glm::length(way) > opening.most) is_closed[of_crack(std::int32_t(v))] = 1;
     }
-    close_where_several(stay, found);
+    const auto used = std::size_t(std::count(used_.begin(), used_.end(), 1));
+    if (2 * found.opened.size() > used) std::fill(is_closed.begin(), is_closed.end(), std::uint8_t(1));
   }
 
-  /// From each face by so much, or by less where edges are short; 0: there is no such way.
-  Vec3 way_back(Span<const PointAndFace> of_faces, double by) const {
+  /// From each face by so much, or by a tenth of that at least, where there is no room for more; 0: there is no such
+  /// way.
+  Vec3 way_back(Span<const PointAndFace> of_faces, double by, double room) const {
     Array<Vec3> normals(&job_.memory);
-    double edge = std::numeric_limits<double>::infinity();
     for (const PointAndFace &of : of_faces) {
-      const Triangle &points = faces_[std::size_t(of.second)].points;
-      const Vec3 normal = outward(points);
+      const Vec3 normal = outward(faces_[std::size_t(of.second)].points);
       normals.push_back(normal / glm::length(normal));  // it lies back to back on another
-      edge = std::min(edge, shortest_edge(points));
     }
     const Vec3 direction = direction_towards(normals, least_lean);
     double lean = 1;
     for (const Vec3 &normal : normals) lean = std::min(lean, glm::dot(normal, direction));
-    return -std::min(by / std::max(lean, least_lean), least_part * edge) * direction;
+    const double far = lean > 0 ? std::min(by / lean, part_of_room * room) : 0;
+    return far * lean < 0.1 * by ? Vec3(0) : -far * direction;
   }
 
-  /// Sides of a place stay where they are: all of their crack become one again.
-  void close_where_several(Span<const std::int32_t> stay, Cracks &found) {
-    Array<std::uint8_t> is_closed(place_.size(), 0, &job_.memory);  // of each crack
-    for (std::size_t v = 0; v < place_.size(); v++)
-      if (stay[v] > 1) is_closed[of_crack(std::int32_t(v))] = 1;
+  /// Of each point that stands for a side, the least height of a tet over the face that it has not.
+  Array<double> find_room() const {
+    Array<double> room = array_of(place_.size(), std::numeric_limits<double>::infinity(), job_);
+    for (std::size_t i = 0; i < tets_.size(); i++) {
+      job_.poll_at(i, 0.9);
+      const Tet &t = tets_[i];
+      for (std::size_t k = 0; k < 4; k++) {
+        if (!is_at_crack_[std::size_t(place(t[k]))] || !is_usable(t)) continue;
+        const int *corner = tet_face[k];
+        const auto of_face = [&](std::size_t j) { return at(t[std::size_t(corner[j])]); };
+        const double six_volumes = std::abs(det(at(t[0]), at(t[1]), at(t[2]), at(t[3])));
+        double &least = room[std::size_t(representative_[std::size_t(t[k])])];
+        least = std::min(least, six_volumes / glm::length(area_vector(of_face(0), of_face(1), of_face(2))));
+      }
+    }
+    return room;
+  }
+
+  /// The sides of such cracks become one again.
+  void close(Span<const std::uint8_t> is_closed, Cracks &found) {
     for (std::size_t v = 0; v < place_.size(); v++) {
       if (is_closed[of_crack(std::int32_t(v))]) representative_[v] = place_[v];
       found.split += representative_[v] == std::int32_t(v) && place_[v] != std::int32_t(v);
@@ -308,12 +350,7 @@ class CracksOfMesh {
     const auto is_at_closed = [&](const Move &move) { return is_closed[of_crack(move.vertex)] != 0; };
     opened.erase(std::remove_if(opened.begin(), opened.end(), is_at_closed), opened.end());
     for (const Move &move : opened)
-      found.opened_by = std::max(found.opened_by, glm::distance(points_[std::size_t(move.vertex)], move.to));
-  }
-
-  double shortest_edge(const Triangle &t) const {
-    const auto way = [&](std::size_t i, std::size_t j) { return glm::distance(at(t[i]), at(t[j])); };
-    return std::min({way(0, 1), way(1, 2), way(0, 2)});
+      found.opened_by = std::max(found.opened_by, glm::distance(at(move.vertex), move.to));
   }
 
   /// Of each point that stands for others, too, whether the host flags one of them.
@@ -324,12 +361,10 @@ class CracksOfMesh {
     return flagged;
   }
 
-  /// By which each side goes back, of the diagonal: what lies on a side is not taken for something on the other.
-  static constexpr double opening = 5e-7;
-  /// But of the shortest edge beside it, at most: so that no tet turns over.
-  static constexpr double least_part = 1e-3;
   /// Cosine of the angle between a way back and the faces' normals.
   static constexpr double least_lean = 0.05;
+  /// So that no tet turns over, though all of its corners move.
+  static constexpr double part_of_room = 0.05;
 
   const Input &input_;
   Span<const Vec3> points_;
@@ -347,8 +382,9 @@ class CracksOfMesh {
 }  // namespace
 
 Cracks keep_cracks_open(const Input &input, Span<const Vec3> points, Span<const Tet> tets,
-                        Span<const std::uint8_t> used, double diagonal, Job &job, Array<std::int32_t> &representative) {
-  return CracksOfMesh(input, points, tets, used, job, representative).keep_open(diagonal);
+                        Span<const std::uint8_t> used, const Opening &opening, Job &job,
+                        Array<std::int32_t> &representative) {
+  return CracksOfMesh(input, points, tets, used, job, representative).keep_open(opening);
 }
 
 }  // namespace tetlod

@@ -27,8 +27,10 @@ class FieldJumps {
 
   /// By more than a hundredth of the range.
   bool jumps(std::int32_t v, std::int32_t u) const {
-    for (std::size_t k = 0; k < input_.steering_fields(); k++)
-      if (std::abs(value(k, std::size_t(v)) - value(k, std::size_t(u))) > most_[k]) return true;
+    for (std::size_t k = 0; k < input_.steering_fields(); k++) {
+      const double by = std::abs(value(k, std::size_t(v)) - value(k, std::size_t(u)));
+      if (std::isfinite(by) && by > most_[k]) return true;
+    }
     return false;
   }
   /// The same, and it is kept that somebody has asked.

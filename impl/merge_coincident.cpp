@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "budget.hpp"
@@ -47,11 +48,18 @@ std::int64_t merge_places(Span<const Vec3> points, Span<const Tet> tets, Span<co
   return merge_points(points, used, tolerance, job, representative);
 }
 
+/// What lies on one side is not to be taken for something on the other.
+Opening opening_of(double diagonal, const Options &options, const Moves *opened) {
+  constexpr double part = 5e-7;
+  const double most = options.max_deviation > 0 ? options.max_deviation / 2 : std::numeric_limits<double>::infinity();
+  return {part * diagonal, most * diagonal, opened};
+}
+
 }  // namespace
 
 Merged merge_coincident(const Input &input, Span<const Vec3> points, Span<const Tet> tets,
                         Span<const std::uint8_t> used, const Box &box, const Options &options, Job &job,
-                        Array<std::int32_t> &representative, bool opens_cracks) {
+                        Array<std::int32_t> &representative, const Moves *opened) {
   const bool is_finite = std::isfinite(box.diagonal());
   const double tolerance = is_finite ? options.merge_tolerance * box.diagonal() : 0;
   const double rounding = is_finite ? rounding_of(box) : 0;
@@ -61,7 +69,8 @@ Merged merge_coincident(const Input &input, Span<const Vec3> points, Span<const 
   if (merged.points == 0 || !takes_contacts(options)) return merged;
   const std::int64_t before = merged.points;
   KeptApart kept = keep_touching_parts_apart(input, points, tets, used, job, representative);
-  if (opens_cracks) merged.cracks = keep_cracks_open(input, points, tets, used, box.diagonal(), job, representative);
+  merged.cracks =
+      keep_cracks_open(input, points, tets, used, opening_of(box.diagonal(), options, opened), job, representative);
   merged.points = kept.merged - merged.cracks.split;
   merged.asked = std::move(kept.asked);
   merged.asked.insert(merged.asked.end(), merged.cracks.asked.begin(), merged.cracks.asked.end());

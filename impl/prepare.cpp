@@ -250,14 +250,14 @@ bool is_sound(const Original &original, const Boundary &boundary, Job &job) {
 }
 
 /// Prepares the mesh anew.
-void close_cracks(const Input &input, const Options &options, Job &job, Original &original, Boundary &boundary,
-                  const Moves *moves) {
+void close_cracks(const Input &input, const Options &options, Job &job, Original &original, Boundary &boundary) {
   Jumps jumps = std::move(original.jumps);
   original = Original(job.memory);
   boundary = Boundary(job.memory);
-  prepare_original(input, options, job, original, false);
+  const Moves none(&job.memory);
+  prepare_original(input, options, job, original, &none);
   original.jumps = std::move(jumps);
-  prepare_boundary(input, options, job, original, boundary, moves);
+  prepare_boundary(input, options, job, original, boundary);
 }
 
 void require_a_value_a_point(const Input &input) {
@@ -300,7 +300,7 @@ int extreme_exponent(const Box &box) {
   return std::abs(exponent) > far_from_one ? exponent : 0;
 }
 
-void prepare_original(const Input &input, const Options &options, Job &job, Original &original, bool opens_cracks) {
+void prepare_original(const Input &input, const Options &options, Job &job, Original &original, const Moves *opened) {
   check_counts(input);
   original.index_base = input.index_base;
   original.view.points = read_points(input, job, original.points);
@@ -313,7 +313,7 @@ void prepare_original(const Input &input, const Options &options, Job &job, Orig
   // The diagonal here is that of what was submitted: which tets are left is not known before points are merged.
   Array<std::int32_t> representative(&job.memory);
   Merged merged = merge_coincident(input, original.view.points, original.view.tets, original.used, submitted, options,
-                                   job, representative, opens_cracks);
+                                   job, representative, opened);
   original.merged_points = merged.points;
   if (merged.points > 0) original.next_merged = chain_merged(representative, job);
   original.merging_depends = merged.depends;
@@ -342,13 +342,13 @@ void prepare_boundary(const Input &input, const Options &options, Job &job, Orig
   if (repairs) make_moves(moves ? *moves : find_moves(original, boundary, job), job, boundary, original);
   if (are_dropped || are_merged || !original.moves.empty()) measure_ranges(input, job, original);
   if (repairs) make_conforming(job, boundary, original);
-  if (!original.opened.empty() && !is_sound(original, boundary, job))
-    close_cracks(input, options, job, original, boundary, moves);
+  if (!moves && !original.opened.empty() && !is_sound(original, boundary, job))
+    close_cracks(input, options, job, original, boundary);
 }
 
 void prepare_with_boundary(const Input &input, const Options &options, Job &job, Original &original, Boundary &boundary,
-                           const Moves *moves) {
-  prepare_original(input, options, job, original);
+                           const Moves *opened, const Moves *moves) {
+  prepare_original(input, options, job, original, opened);
   prepare_boundary(input, options, job, original, boundary, moves);
 }
 

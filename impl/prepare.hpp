@@ -49,7 +49,7 @@ struct Original {
   Torn torn;                          ///< parts whose points did not, though they have faces in common
   Moves opened;                       ///< points of cracks that a field jumps across: their sides lie apart
   std::int64_t merged_points = 0;     ///< coincident points that became one
-  bool merging_depends = false;       ///< on whether parts may be in contact
+  bool merging_depends = false;       ///< on whether parts may be in contact, and on max-deviation
   Jumps jumps;                        ///< on which it depends which points became one
   std::int64_t nonfinite_points = 0;  ///< without a finite value, ignored with their tets
   std::int64_t dropped_tets = 0;      ///< with such a point, or with a repeated vertex, as submitted or after merging
@@ -90,18 +90,18 @@ void check_count(const Input &input, const std::string &field, std::int64_t tupl
 /// Coordinates so large or small that their sixth powers leave the range of doubles are scaled, exactly.
 /// Throws what check_counts does, mesh_index, mesh_nonfinite.
 void prepare_original(const Input &input, const Options &options, Job &job, Original &original,
-                      bool opens_cracks = true);
+                      const Moves *opened = nullptr);
 
 /// Then: extract_boundary. What it leaves out of the view, flat tets that hang on it and those given twice, is dropped,
 /// and points that no other tet has are none of the mesh any more. Where overlaps are repaired, vertices
 /// are moved, these or find_moves(), and then make_conforming. Where the boundary is not sound with cracks that are
-/// open, both, and original, are anew without.
+/// open, and moves are not given, it is anew without, and so is original.
 void prepare_boundary(const Input &input, const Options &options, Job &job, Original &original, Boundary &boundary,
                       const Moves *moves = nullptr);
 
-/// prepare_original and prepare_boundary.
+/// prepare_original and prepare_boundary. opened, moves: Original's that were made before.
 void prepare_with_boundary(const Input &input, const Options &options, Job &job, Original &original, Boundary &boundary,
-                           const Moves *moves = nullptr);
+                           const Moves *opened = nullptr, const Moves *moves = nullptr);
 
 /// The same as prepare_original of a mesh whose points, tets, flags and options are what they were, and other values.
 /// False: it takes prepare_original, because the values change what the mesh is, or are none.

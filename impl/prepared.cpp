@@ -54,7 +54,8 @@ Fingerprint fingerprint_of_mesh(const Input &input, const Options &options, Job 
 
 bool Prepared::holds(const Fingerprint &mesh, const Input &input, const Options &options, Job &job) {
   surface_has_values_ = false;
-  const bool would_merge_others = original.merging_depends && took_contacts_ != takes_contacts(options);
+  const bool would_merge_others = original.merging_depends && (took_contacts_ != takes_contacts(options) ||
+                                                               max_deviation_ != options.max_deviation);
   return filled_ && !would_merge_others && stamp_of(mesh, input, options, job) == stamp_ &&
          renew_values(input, job, original);
 }
@@ -64,6 +65,7 @@ bool Prepared::renew(const Fingerprint &mesh, const Input &input, const Options 
   forget(job.memory);
   stamp_ = stamp_of(mesh, input, options, job);
   took_contacts_ = takes_contacts(options);
+  max_deviation_ = options.max_deviation;
   return false;
 }
 

@@ -1,8 +1,8 @@
 // What runs of one mesh have in common, kept from each for the next. A rule for each part says what it depends on:
 //   original, boundary, surface, topology   points, tets, flags, merge-tolerance, policies (the stamp), while all
-//                                           values are finite, and whether contacts are taken, if points of
-//                                           parts that touch, or of cracks, are at one place, and where fields
-//                                           jump between these
+//                                           values are finite, and whether contacts are taken and max-deviation,
+//                                           if points of parts that touch, or of cracks, are at one place, and
+//                                           where fields jump between these
 //   the decimation                          that, lambda, clean-edges, max-deviation, and the field if its cost sees it
 //   the history of collapses                the original, its values and how they count; for a warm start, others
 //   verdicts                                the decimation and how far it went, min-distance, boundary-leaf
@@ -105,6 +105,7 @@ class Prepared {
   bool surface_has_values_ = false;  ///< the original's of now
   Fingerprint stamp_;
   bool took_contacts_ = false;
+  double max_deviation_ = 0;
   Surface surface_;
   SurfaceTopology topology_;
   ContactsOnDemand contacts_;

@@ -286,19 +286,20 @@ void make_moves(const Moves &moves, Job &job, Boundary &boundary, Original &orig
   original.moved = std::move(points);
   original.view.submitted = original.view.points;
   original.view.points = original.moved;
+  double farthest = 0;
   for (const Triangle &triangle : boundary.triangles)
     for (const std::int32_t v : triangle)
-      original.boundary_moved_by =
-          std::max(original.boundary_moved_by,
-                   glm::distance(original.moved[std::size_t(v)], original.view.submitted[std::size_t(v)]));
+      farthest =
+          std::max(farthest, glm::distance(original.moved[std::size_t(v)], original.view.submitted[std::size_t(v)]));
+  original.boundary_moved_by += farthest;
 }
 
 void refuse_moves(const Original &original, const Options &options) {
   const double moved_by = original.boundary_moved_by / original.box.diagonal();
   if (options.max_deviation == 0 || options.max_deviation > moved_by) return;
-  fail(Status::mesh_intersecting, "%s would have to be moved by %s of the diagonal (max-deviation: %s)",
-       original.moves.empty() ? "vertices of cracks that a field jumps across"
-                              : "tets are turned over at the boundary, of which vertices",
+  fail(Status::mesh_intersecting,
+       "tets are turned over at the boundary, of which vertices would have to be moved by %s of the diagonal "
+       "(max-deviation: %s)",
        number(moved_by).c_str(), number(options.max_deviation).c_str());
 }
 

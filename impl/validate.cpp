@@ -108,7 +108,8 @@ class Inspector {
   void merge() {
     const Box box = scale_used_points();
     Array<std::int32_t> representative(&job_.memory);
-    merge_coincident(input_, points_, tets_, used_, box, options_, job_, representative);
+    const Moves none(&job_.memory);  // whether a crack can be open is not known yet
+    merge_coincident(input_, points_, tets_, used_, box, options_, job_, representative, &none);
     for (std::size_t v = 0; v < points_.size(); v++)
       if (representative[v] != std::int32_t(v)) found_.coincident.add(std::int64_t(v) + base_);
     drop_tets([&](Tet &t, std::int64_t name) {

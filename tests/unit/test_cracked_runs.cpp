@@ -116,14 +116,64 @@ TEST_F(CrackedRuns, AStencilIsThatOfTheRun) {
   }
 }
 
-/// The sides would have to be moved by more.
-TEST_F(CrackedRuns, ADeviationOfNextToNothingIsRefused) {
+/// Which sides are moved depends on flags, and a stencil is of what the run did.
+TEST_F(CrackedRuns, AStencilIsThatOfTheRunWithFlags) {
+  const Mesh original = cracked_cube(cells, 1);
   options.target_ratio = 0.3;
-  options.max_deviation = 1e-7;
-  EXPECT_EQ(status(cracked_cube(cells, 1)), Status::mesh_intersecting);
-  options.max_deviation = 1e-3;
-  EXPECT_EQ(status(cracked_cube(cells, 1)), Status::ok);
-  EXPECT_LE(report().max_deviation, options.max_deviation);
+  for (const bool both : {false, true}) {
+    std::vector<std::uint8_t> flags(original.points.size(), 0), others = flags;
+    for (std::size_t v = 0; v < flags.size(); v++)
+      flags[v] = original.points[v].z == 0.5 && (both || original.scalars[v] > 0.2) ? keep_vertex : 0;
+    Input input = input_of(original);
+    input.flags = strided(flags.data(), flags.size(), 1, 1, ElementType::uint8);
+    Input with_field = input;
+    with_field.fields.push_back({"field", Association::point, input.scalars});
+    result = Result(host.memory);
+    run(with_field, options, worker, host.job, result);
+    EXPECT_EQ(report().merged_points > 0, both);
+    const Stencil stencil = std::move(result.stencil);
+    for (const std::vector<std::uint8_t> &later : {flags, others}) {
+      input.flags = strided(later.data(), later.size(), 1, 1, ElementType::uint8);
+      Prepared prepared(host.memory);
+      result.stencil = Stencil(host.memory);
+      find_stencil(input, options, prepared, host.job, result);
+      EXPECT_EQ(result.stencil.ids, stencil.ids);
+      EXPECT_EQ(result.stencil.weights, stencil.weights);
+    }
+  }
+}
+
+/// Whether they can be open is not known before; a value that is none is no jump.
+TEST_F(CrackedRuns, TheirPointsCountAsCoincident) {
+  options.target_ratio = 0.3;
+  for (const double jump : {0.0, 1.0})
+    for (const bool is_finite : {true, false}) {
+      Mesh original = cracked_cube(cells, jump);
+      options.on_nonfinite = is_finite ? policy_error : policy_repair;
+      if (!is_finite)
+        *std::find(original.scalars.begin(), original.scalars.end(), original.scalars.back()) =
+            std::numeric_limits<double>::infinity();
+      options.on_coincident = policy_repair;
+      const Input input = input_of(original);
+      EXPECT_GT(find_defects(input, options, host.job).coincident.count, 8);
+      EXPECT_EQ(status(original), Status::ok);
+      options.on_coincident = policy_error;
+      EXPECT_EQ(status(original), Status::mesh_degenerate);
+    }
+}
+
+TEST_F(CrackedRuns, ADeviationOfNextToNothingIsHeld) {
+  Prepared prepared(host.memory);
+  options.target_ratio = 0.9;
+  const Mesh original = cracked_cube(cells, 1);
+  for (const double limit : {1e-3, 1e-7, 1e-3}) {
+    options.max_deviation = limit;
+    const Result later = run_later(original, prepared);
+    EXPECT_LE(later.report.max_deviation, limit);
+    EXPECT_EQ(later.report.merged_points > 0, limit == 1e-7);
+    simplify(original);
+    EXPECT_EQ(later.report.hash, report().hash);
+  }
 }
 
 }  // namespace
