@@ -180,10 +180,10 @@ class Inspection {
     return part;
   }
 
-  /// Two, each of as many tets as the library asks for, have points at one place.
+  /// Two, or the two sides of a crack, of as many tets as the library asks for, have points at one place.
   void look_for_torn_parts() {
     constexpr std::size_t fewest = 64;
-    if (!repairs_.takes_contacts || tets_.size() < 2 * fewest) return;
+    if (!repairs_.takes_contacts || tets_.size() < fewest) return;
     std::map<Point, std::int64_t> first;
     for (std::size_t v = 0; v < used_.size(); v++)
       facts_.gaps = facts_.gaps || (used_[v] && !first.emplace(place(std::int64_t(v)), std::int64_t(v)).second);
