@@ -34,17 +34,19 @@ void Beginning::tell_unequal_fields() const {
 
 void Beginning::tell_moves() const {
   if (!job_.log) return;
-  const std::string moved_by = number(original_.boundary_moved_by / original_.box.diagonal());
+  const double moved_by = original_.boundary_moved_by / original_.box.diagonal();
   if (!original_.opened.empty())
     job_.log(
-        2, text("a field jumps across cracks: %lld points of their sides lie apart, by up to twice %s of the diagonal",
-                static_cast<long long>(original_.opened.size()), moved_by.c_str())
-               .c_str());
+        2,
+        text("a field jumps across cracks: %lld points of their sides lie apart, by up to twice %.2g of the diagonal",
+             static_cast<long long>(original_.opened.size()), moved_by)
+            .c_str());
   if (!original_.moves.empty())
     job_.log(
-        2, text("tets are turned over at the boundary: %lld points are moved, those on it by up to %s of the diagonal",
-                static_cast<long long>(original_.moves.size()), moved_by.c_str())
-               .c_str());
+        2,
+        text("tets are turned over at the boundary: %lld points are moved, those on it by up to %.2g of the diagonal",
+             static_cast<long long>(original_.moves.size()), moved_by)
+            .c_str());
 }
 
 double Beginning::bound() const {
