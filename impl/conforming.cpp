@@ -8,8 +8,6 @@
 #include "hanging_vertices.hpp"
 #include "nested_solids.hpp"
 #include "status.hpp"
-#include "surface_distance.hpp"
-#include "surface_topology.hpp"
 
 namespace tetlod {
 
@@ -23,23 +21,6 @@ constexpr int most_rounds = 100;
 bool has_gaps(const MeshView &mesh, const Boundary &boundary, Job &job) {
   const TriangleCorners corners(mesh.points.size(), boundary.triangles, job);
   return any_hanging_vertices(mesh, corners, job) || any_crossed_quads(mesh, corners, boundary.tet_of, job);
-}
-
-/// Its boundary bounds wedges of material, and, if that is asked for, touches itself nowhere.
-bool is_solid(const NumberedTets &tets, bool nor_touches_itself, Job &job) {
-  Surface surface(job.memory);
-  make_surface(tets.view(), tets.boundary.triangles, job, surface);
-  SurfaceTopology topology(job.memory);
-  try {
-    find_topology(surface.points, surface.triangles, job, topology);
-    if (!nor_touches_itself) return true;
-    TreeOnDemand tree(surface);
-    refuse_intersections(surface, topology, tree, 0, job);
-  } catch (const Error &error) {
-    if (error.status() != Status::mesh_intersecting) throw;
-    return false;
-  }
-  return true;
 }
 
 /// False: they come to no end.
@@ -83,7 +64,7 @@ std::int64_t count_divided(const Original &original, const NumberedTets &tets) {
 void make_conforming(Job &job, Boundary &boundary, Original &original) {
   if (!has_gaps(original.view, boundary, job)) return;
   NumberedTets tets(original.view, original.tet_number, job.memory);
-  if (!close_gaps(job, tets, true) || !is_solid(tets, false, job)) return;
+  if (!close_gaps(job, tets, true) || !is_sound(tets.view(), tets.boundary.triangles, MayTouch::itself, job)) return;
   tets.boundary.flat_tets += boundary.flat_tets;
   tets.boundary.duplicate_tets += boundary.duplicate_tets;
   boundary = std::move(tets.boundary);
@@ -99,7 +80,7 @@ bool close_gaps_of(Job &job, NumberedTets &tets) {
 
 bool can_conform(Job &job, NumberedTets &tets) {
   return tets.find_boundary(job) && has_gaps(tets.view(), tets.boundary, job) && close_gaps(job, tets, false) &&
-         is_solid(tets, true, job);
+         is_sound(tets.view(), tets.boundary.triangles, MayTouch::nothing, job);
 }
 
 }  // namespace tetlod

@@ -7,7 +7,6 @@
 #include <limits>
 #include <utility>
 
-#include "disjoint_sets.hpp"
 #include "face_sweep.hpp"
 #include "field_jumps.hpp"
 #include "geometry.hpp"
@@ -31,9 +30,9 @@ struct Pair {
   bool is_crack = false;
 };
 
-/// Of length 1, as the normals are: that leans towards them all, by as much as can be, but for a hundredth; 0: none
-/// does by so much.
-Vec3 direction_towards(Span<const Vec3> normals, double least) {
+/// A way that leads along each of these normals by 1 or more, and is at most twice as long as the shortest such; 0: it
+/// would be longer than that.
+Vec3 way_along(Span<const Vec3> normals, double longest) {
   constexpr int most_steps = 1000;
   constexpr double enough = 0.5;
   Vec3 nearest = normals[0];  // to the origin, in the convex hull
@@ -42,8 +41,8 @@ Vec3 direction_towards(Span<const Vec3> normals, double least) {
       return glm::dot(a, nearest) < glm::dot(b, nearest);
     });
     const double length = glm::length(nearest), lean = length > 0 ? glm::dot(last, nearest) / length : 0;
-    if (lean >= std::max(least, enough * length)) return nearest / length;
-    if (length < least) break;  // nor is any other
+    if (longest * lean >= 1 && lean >= enough * length) return nearest / (lean * length);
+    if (longest * length < 1) break;  // as the others would
     const Vec3 way = last - nearest;
     nearest += std::clamp(-glm::dot(nearest, way) / length2(way), 0.0, 1.0) * way;
   }
@@ -52,12 +51,8 @@ Vec3 direction_towards(Span<const Vec3> normals, double least) {
 
 class CracksOfMesh {
  public:
-  CracksOfMesh(const Input &input, Span<const Vec3> points, Span<const Tet> tets, Span<const std::uint8_t> used,
-               Job &job, Array<std::int32_t> &representative)
-      : input_(input),
-        points_(points),
-        tets_(tets),
-        used_(used),
+  CracksOfMesh(const SubmittedMesh &mesh, Job &job, Array<std::int32_t> &representative)
+      : mesh_(mesh),
         job_(job),
         representative_(representative),
         place_(representative.begin(), representative.end(), &job.memory),
@@ -71,7 +66,9 @@ class CracksOfMesh {
     find_faces();
     if (faces_.empty()) return found;
     find_pairs();
-    if (are_between_large_pieces() && any_jumps(found)) {
+    if (!are_between_large_pieces()) return found;
+    join_cracks();
+    if (any_jumps(found)) {
       split_places();
       open(opening, found);
     }
@@ -79,38 +76,27 @@ class CracksOfMesh {
   }
 
  private:
-  static constexpr std::int32_t large = 64;  // tets
-
-  const Vec3 &at(std::int32_t v) const { return points_[std::size_t(v)]; }
+  const Vec3 &at(std::int32_t v) const { return mesh_.points[std::size_t(v)]; }
   std::int32_t place(std::int32_t v) const { return place_[std::size_t(v)]; }
 
-  bool is_usable(const Tet &t) const {
-    return !has_repeated_vertex(t) &&
-           std::all_of(t.begin(), t.end(), [&](std::int32_t v) { return used_[std::size_t(v)] != 0; });
-  }
+  bool is_usable(const Tet &t) const { return !has_repeated_vertex(t) && mesh_.has_all(t); }
 
   /// visit(first, last) of the uses of each face; excluded: of each tet.
   template <class Visit>
   void for_faces(Span<const std::uint8_t> excluded, const Visit &visit) const {
-    MeshView view{points_, {}, tets_};
+    MeshView view{mesh_.points, {}, mesh_.tets};
     view.fields = 0;
     for_each_face(view, excluded, job_, visit);
   }
 
-  /// Of each point, how many are at its place of parts with so many tets; as points hang together that tets have in
-  /// common.
+  /// Of each point, how many are at its place.
   Array<std::int32_t> count_points_of_large_parts() const {
-    DisjointSets parts(place_.size(), job_.memory);
+    DisjointSets parts = mesh_.join_parts(job_);
     Array<std::int32_t> tets(place_.size(), 0, &job_.memory), points(place_.size(), 0, &job_.memory);
-    for (std::size_t t = 0; t < tets_.size(); t++) {
-      job_.poll_at(t, 0.9);
-      if (!is_usable(tets_[t])) continue;
-      for (const std::int32_t v : tets_[t]) parts.join(tets_[t][0], v);
-    }
-    for (const Tet &t : tets_)
+    for (const Tet &t : mesh_.tets)
       if (is_usable(t)) tets[std::size_t(parts.lowest(t[0]))]++;
     for (std::size_t v = 0; v < place_.size(); v++)
-      points[std::size_t(place_[v])] += tets[std::size_t(parts.lowest(std::int32_t(v)))] >= large;
+      points[std::size_t(place_[v])] += tets[std::size_t(parts.lowest(std::int32_t(v)))] >= large_part;
     for (std::size_t v = 0; v < place_.size(); v++) points[v] = points[std::size_t(place_[v])];
     return points;
   }
@@ -123,10 +109,10 @@ class CracksOfMesh {
       return std::any_of(simplex.begin(), simplex.end(), [&](std::int32_t v) { return points[std::size_t(v)] > 1; });
     };
     Array<std::uint8_t> excluded(&job_.memory);
-    excluded.reserve(tets_.size());
-    for (std::size_t t = 0; t < tets_.size(); t++) {
+    excluded.reserve(mesh_.tets.size());
+    for (std::size_t t = 0; t < mesh_.tets.size(); t++) {
       job_.poll_at(t, 0.9);
-      excluded.push_back(!any_doubled(tets_[t]) || !is_usable(tets_[t]));
+      excluded.push_back(!any_doubled(mesh_.tets[t]) || !is_usable(mesh_.tets[t]));
     }
     for_faces(excluded, [&](const FaceUse *first, const FaceUse *last) {
       if (last - first > 1) return;
@@ -137,7 +123,7 @@ class CracksOfMesh {
 
   Face face_of(const FaceUse &use) const {
     const int *corner = tet_face[use.corner()];
-    const Tet &t = tets_[use.tet()];
+    const Tet &t = mesh_.tets[use.tet()];
     Triangle points{t[std::size_t(corner[0])], t[std::size_t(corner[1])], t[std::size_t(corner[2])]};
     if (det(at(t[0]), at(t[1]), at(t[2]), at(t[3])) < 0) std::swap(points[1], points[2]);
     return {points, std::int32_t(use.tet())};
@@ -193,18 +179,18 @@ class CracksOfMesh {
   bool are_between_large_pieces() {
     if (pairs_.empty()) return false;
     Array<std::uint8_t> excluded(&job_.memory);
-    for (const Tet &t : tets_) excluded.push_back(!is_usable(t));
-    DisjointSets pieces(tets_.size(), job_.memory);
+    for (const Tet &t : mesh_.tets) excluded.push_back(!is_usable(t));
+    DisjointSets pieces(mesh_.tets.size(), job_.memory);
     for_faces(excluded, [&](const FaceUse *first, const FaceUse *last) {
       for (const FaceUse *use = first + 1; use < last; use++)
         pieces.join(std::int32_t(first->tet()), std::int32_t(use->tet()));
     });
-    Array<std::int32_t> count(tets_.size(), 0, &job_.memory);
+    Array<std::int32_t> count(mesh_.tets.size(), 0, &job_.memory);
     for (std::size_t t = 0; t < count.size(); t++) count[std::size_t(pieces.lowest(std::int32_t(t)))]++;
     bool any = false;
     for (Pair &pair : pairs_) {
       pair.is_crack = std::all_of(pair.face.begin(), pair.face.end(), [&](std::int32_t face) {
-        return count[std::size_t(pieces.lowest(faces_[std::size_t(face)].tet))] >= large;
+        return count[std::size_t(pieces.lowest(faces_[std::size_t(face)].tet))] >= large_part;
       });
       any |= pair.is_crack;
     }
@@ -218,35 +204,35 @@ class CracksOfMesh {
       if (v != u) visit(v, u);
   }
 
+  /// Pairs hang together at places where both have two points.
+  void join_cracks() {
+    for (const Pair &pair : pairs_)
+      if (pair.is_crack && pair.end[0].first != pair.end[0].second && pair.end[1].first != pair.end[1].second)
+        cracks_.join(place(pair.end[0].first), place(pair.end[1].first));
+  }
+
+  /// Known by its lowest place.
+  std::size_t of_crack(std::int32_t v) { return std::size_t(cracks_.lowest(place(v))); }
+
   /// Those across which no field does are none, unless it does beside them.
   bool any_jumps(Cracks &found) {
-    FieldJumps fields(input_, used_, job_);
+    FieldJumps fields(mesh_.input, mesh_.used, job_);
     Array<std::uint8_t> jumps(place_.size(), 0, &job_.memory);  // of each crack
-    for (const Pair &pair : pairs_) {
-      std::int32_t first = -1;
-      if (pair.is_crack)
-        for_doubled(pair, [&](std::int32_t v, std::int32_t) {
-          if (first < 0) first = place(v);
-          cracks_.join(first, place(v));
-        });
-    }
     for (const Pair &pair : pairs_)
       if (pair.is_crack)
         for_doubled(pair, [&](std::int32_t v, std::int32_t u) { jumps[of_crack(v)] |= fields.ask(v, u); });
     found.asked = std::move(fields).asked();
     bool any = false;
     for (Pair &pair : pairs_) {
-      if (pair.is_crack)
-        for_doubled(pair, [&](std::int32_t v, std::int32_t) { pair.is_crack = jumps[of_crack(v)] != 0; });
       if (!pair.is_crack) continue;
-      any = true;
-      for_doubled(pair, [&](std::int32_t v, std::int32_t) { is_at_crack_[std::size_t(place(v))] = 1; });
+      for_doubled(pair, [&](std::int32_t v, std::int32_t) {
+        pair.is_crack = jumps[of_crack(v)] != 0;
+        is_at_crack_[std::size_t(place(v))] = pair.is_crack;
+      });
+      any |= pair.is_crack;
     }
     return any;
   }
-
-  /// Known by its lowest place.
-  std::size_t of_crack(std::int32_t v) { return std::size_t(cracks_.lowest(place(v))); }
 
   /// Each side's lowest point stands for it.
   void split_places() {
@@ -300,10 +286,10 @@ class CracksOfMesh {
       if (way == Vec3(0))
         stay[std::size_t(place_[v])]++;
       else
-        found.opened.push_back({std::int32_t(v), points_[v] + way});
+        found.opened.push_back({std::int32_t(v), mesh_.points[v] + way});
       if (stay[std::size_t(place_[v])] > 1 || glm::length(way) > opening.most) is_closed[of_crack(std::int32_t(v))] = 1;
     }
-    const auto used = std::size_t(std::count(used_.begin(), used_.end(), 1));
+    const auto used = std::size_t(std::count(mesh_.used.begin(), mesh_.used.end(), 1));
     if (2 * found.opened.size() > used) std::fill(is_closed.begin(), is_closed.end(), std::uint8_t(1));
   }
 
@@ -315,24 +301,22 @@ class CracksOfMesh {
       const Vec3 normal = outward(faces_[std::size_t(of.second)].points);
       normals.push_back(normal / glm::length(normal));  // it lies back to back on another
     }
-    const Vec3 direction = direction_towards(normals, least_lean);
-    double lean = 1;
-    for (const Vec3 &normal : normals) lean = std::min(lean, glm::dot(normal, direction));
-    const double far = lean > 0 ? std::min(by / lean, part_of_room * room) : 0;
-    return far * lean < 0.1 * by ? Vec3(0) : -far * direction;
+    const Vec3 way = way_along(normals, longest);
+    const double far = std::min(by, part_of_room * room / glm::length(way));
+    return far < 0.1 * by ? Vec3(0) : -far * way;
   }
 
   /// Of each point that stands for a side, the least height of a tet over the face that it has not.
   Array<double> find_room() const {
     Array<double> room = array_of(place_.size(), std::numeric_limits<double>::infinity(), job_);
-    for (std::size_t i = 0; i < tets_.size(); i++) {
+    const auto is_at_crack = [&](std::int32_t v) { return is_at_crack_[std::size_t(place(v))] != 0; };
+    for (std::size_t i = 0; i < mesh_.tets.size(); i++) {
       job_.poll_at(i, 0.9);
-      const Tet &t = tets_[i];
+      const Tet &t = mesh_.tets[i];
+      if (std::none_of(t.begin(), t.end(), is_at_crack) || !is_usable(t)) continue;
+      const double six_volumes = std::abs(det(at(t[0]), at(t[1]), at(t[2]), at(t[3])));
       for (std::size_t k = 0; k < 4; k++) {
-        if (!is_at_crack_[std::size_t(place(t[k]))] || !is_usable(t)) continue;
-        const int *corner = tet_face[k];
-        const auto of_face = [&](std::size_t j) { return at(t[std::size_t(corner[j])]); };
-        const double six_volumes = std::abs(det(at(t[0]), at(t[1]), at(t[2]), at(t[3])));
+        const auto of_face = [&](std::size_t j) { return at(t[std::size_t(tet_face[k][j])]); };
         double &least = room[std::size_t(representative_[std::size_t(t[k])])];
         least = std::min(least, six_volumes / glm::length(area_vector(of_face(0), of_face(1), of_face(2))));
       }
@@ -342,34 +326,26 @@ class CracksOfMesh {
 
   /// The sides of such cracks become one again.
   void close(Span<const std::uint8_t> is_closed, Cracks &found) {
-    for (std::size_t v = 0; v < place_.size(); v++) {
+    for (std::size_t v = 0; v < place_.size(); v++)
       if (is_closed[of_crack(std::int32_t(v))]) representative_[v] = place_[v];
-      found.split += representative_[v] == std::int32_t(v) && place_[v] != std::int32_t(v);
-    }
-    Moves &opened = found.opened;
     const auto is_at_closed = [&](const Move &move) { return is_closed[of_crack(move.vertex)] != 0; };
-    opened.erase(std::remove_if(opened.begin(), opened.end(), is_at_closed), opened.end());
-    for (const Move &move : opened)
-      found.opened_by = std::max(found.opened_by, glm::distance(at(move.vertex), move.to));
+    found.opened.erase(std::remove_if(found.opened.begin(), found.opened.end(), is_at_closed), found.opened.end());
   }
 
   /// Of each point that stands for others, too, whether the host flags one of them.
   Array<std::uint8_t> find_flagged() const {
     Array<std::uint8_t> flagged(representative_.size(), 0, &job_.memory);
-    for (std::size_t v = 0; v < flagged.size() && std::int64_t(v) < input_.flags.tuples; v++)
-      if (input_.flags.at<std::uint8_t>(std::int64_t(v), 0)) flagged[std::size_t(representative_[v])] = 1;
+    for (std::size_t v = 0; v < flagged.size() && std::int64_t(v) < mesh_.input.flags.tuples; v++)
+      if (mesh_.input.flags.at<std::uint8_t>(std::int64_t(v), 0)) flagged[std::size_t(representative_[v])] = 1;
     return flagged;
   }
 
-  /// Cosine of the angle between a way back and the faces' normals.
-  static constexpr double least_lean = 0.05;
+  /// Way back, beside what it leads from each of the faces.
+  static constexpr double longest = 20;
   /// So that no tet turns over, though all of its corners move.
   static constexpr double part_of_room = 0.05;
 
-  const Input &input_;
-  Span<const Vec3> points_;
-  Span<const Tet> tets_;
-  Span<const std::uint8_t> used_;
+  const SubmittedMesh &mesh_;
   Job &job_;
   Array<std::int32_t> &representative_;
   Array<std::int32_t> place_;  // of each point, as the lowest one there
@@ -381,10 +357,9 @@ class CracksOfMesh {
 
 }  // namespace
 
-Cracks keep_cracks_open(const Input &input, Span<const Vec3> points, Span<const Tet> tets,
-                        Span<const std::uint8_t> used, const Opening &opening, Job &job,
+Cracks keep_cracks_open(const SubmittedMesh &mesh, const Opening &opening, Job &job,
                         Array<std::int32_t> &representative) {
-  return CracksOfMesh(input, points, tets, used, job, representative).keep_open(opening);
+  return CracksOfMesh(mesh, job, representative).keep_open(opening);
 }
 
 }  // namespace tetlod

@@ -1,16 +1,13 @@
 // Cracks: faces inside a mesh whose two sides have points of their own at one place, with values of their own.
 #pragma once
-#include "job.hpp"
-#include "pipeline.hpp"
+#include "submitted_mesh.hpp"
 
 namespace tetlod {
 
 struct Cracks {
   explicit Cracks(Memory &memory) : opened(&memory), asked(&memory) {}
-  std::int64_t split = 0;  ///< points that were merged, and stand for a side now
-  Moves opened;            ///< points of their sides, moved into their own, so that the sides lie apart
-  double opened_by = 0;    ///< the farthest of these
-  Jumps asked;             ///< on which that depends
+  Moves opened;  ///< points of their sides, moved into their own, so that the sides lie apart
+  Jumps asked;   ///< on which that depends
 };
 
 /// By which each side goes back from each of its faces, and at most from where it was; or the moves that were made
@@ -26,8 +23,7 @@ struct Opening {
 /// whose sides cannot lie apart, all if most points are at cracks, as of cells between which fields jump everywhere.
 /// representative: as merge_points() or keep_touching_parts_apart() leaves it; of points at a crack, those of each side
 /// become one of its own. Points that the host flags are not moved. Tets with an unused vertex are none.
-Cracks keep_cracks_open(const Input &input, Span<const Vec3> points, Span<const Tet> tets,
-                        Span<const std::uint8_t> used, const Opening &opening, Job &job,
+Cracks keep_cracks_open(const SubmittedMesh &mesh, const Opening &opening, Job &job,
                         Array<std::int32_t> &representative);
 
 }  // namespace tetlod

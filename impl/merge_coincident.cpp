@@ -48,6 +48,12 @@ std::int64_t merge_places(Span<const Vec3> points, Span<const Tet> tets, Span<co
   return merge_points(points, used, tolerance, job, representative);
 }
 
+std::int64_t count_merged(Span<const std::int32_t> representative) {
+  std::int64_t merged = 0;
+  for (std::size_t v = 0; v < representative.size(); v++) merged += representative[v] != std::int32_t(v);
+  return merged;
+}
+
 /// What lies on one side is not to be taken for something on the other.
 Opening opening_of(double diagonal, const Options &options, const Moves *opened) {
   constexpr double part = 5e-7;
@@ -68,10 +74,10 @@ Merged merge_coincident(const Input &input, Span<const Vec3> points, Span<const 
   merged.depends = merged.points > 0;
   if (merged.points == 0 || !takes_contacts(options)) return merged;
   const std::int64_t before = merged.points;
-  KeptApart kept = keep_touching_parts_apart(input, points, tets, used, job, representative);
-  merged.cracks =
-      keep_cracks_open(input, points, tets, used, opening_of(box.diagonal(), options, opened), job, representative);
-  merged.points = kept.merged - merged.cracks.split;
+  const SubmittedMesh mesh{input, points, tets, used};
+  KeptApart kept = keep_touching_parts_apart(mesh, job, representative);
+  merged.cracks = keep_cracks_open(mesh, opening_of(box.diagonal(), options, opened), job, representative);
+  merged.points = count_merged(representative);
   merged.asked = std::move(kept.asked);
   merged.asked.insert(merged.asked.end(), merged.cracks.asked.begin(), merged.cracks.asked.end());
   merged.depends = merged.points < before || !merged.asked.empty();

@@ -99,18 +99,29 @@ void refuse_overlaps(const Surface &surface, const SurfaceTopology &topology, Co
   refuse_nested_solids(surface, topology, tree, index_base, job, may_meet);
 }
 
-void refuse_unsound(const MeshView &mesh, Span<const Triangle> boundary, bool may_be_in_contact,
-                    std::int32_t index_base, Job &job) {
+void refuse_unsound(const MeshView &mesh, Span<const Triangle> boundary, MayTouch may_touch, std::int32_t index_base,
+                    Job &job) {
   Surface surface(job.memory);
   make_surface(mesh, boundary, job, surface);
   SurfaceTopology topology(job.memory);
   find_topology(surface.points, surface.triangles, job, topology, host_numbers(surface, index_base));
+  if (may_touch == MayTouch::itself) return;
   TreeOnDemand tree(surface);
   ContactsOnDemand contacts;
-  if (may_be_in_contact)
+  if (may_touch == MayTouch::other_solids)
     refuse_overlaps(surface, topology, contacts, tree, index_base, job);
   else
     refuse_intersections(surface, topology, tree, index_base, job);
+}
+
+bool is_sound(const MeshView &mesh, Span<const Triangle> boundary, MayTouch may_touch, Job &job) {
+  try {
+    refuse_unsound(mesh, boundary, may_touch, 0, job);
+  } catch (const Error &error) {
+    if (error.status() != Status::mesh_intersecting) throw;
+    return false;
+  }
+  return true;
 }
 
 }  // namespace tetlod

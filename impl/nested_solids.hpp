@@ -22,8 +22,11 @@ void refuse_intersections(const Surface &surface, const SurfaceTopology &topolog
 void refuse_overlaps(const Surface &surface, const SurfaceTopology &topology, ContactsOnDemand &contacts,
                      TreeOnDemand &tree, std::int32_t index_base, Job &job);
 
-/// Of a mesh's boundary likewise, or, if they may not be, as refuse_intersections(); and as find_topology().
-void refuse_unsound(const MeshView &mesh, Span<const Triangle> boundary, bool may_be_in_contact,
-                    std::int32_t index_base, Job &job);
+enum class MayTouch { itself, other_solids, nothing };
+
+/// What find_topology() says of a mesh's boundary and, unless it may touch itself, one of these.
+void refuse_unsound(const MeshView &mesh, Span<const Triangle> boundary, MayTouch may_touch, std::int32_t index_base,
+                    Job &job);
+bool is_sound(const MeshView &mesh, Span<const Triangle> boundary, MayTouch may_touch, Job &job);
 
 }  // namespace tetlod

@@ -192,11 +192,14 @@ Box scale_extreme_coordinates(const Box &box, Job &job, Original &original) {
 
 void take_cracks(Cracks &&cracks, Job &job, Original &original) {
   original.opened = std::move(cracks.opened);
-  original.boundary_moved_by = cracks.opened_by;
   if (original.opened.empty()) return;
   Array<Vec3> points = array_of(original.view.points.size(), Vec3(0), job);
   for_each(points.size(), job, [&](std::size_t v) { points[v] = original.view.points[v]; });
-  for (const Move &move : original.opened) points[std::size_t(move.vertex)] = move.to;
+  for (const Move &move : original.opened) {
+    Vec3 &point = points[std::size_t(move.vertex)];
+    original.boundary_moved_by = std::max(original.boundary_moved_by, glm::distance(point, move.to));
+    point = move.to;
+  }
   original.points = std::move(points);
   original.view.points = original.points;
 }
@@ -237,16 +240,6 @@ void drop_excluded(Job &job, Boundary &boundary, Original &original) {
   take_tets(std::move(kept), std::move(numbers), job, original);
   for (std::int32_t &t : boundary.tet_of) t = renamed[std::size_t(t)];
   boundary.excluded.clear();
-}
-
-bool is_sound(const Original &original, const Boundary &boundary, Job &job) {
-  try {
-    refuse_unsound(original.view, boundary.triangles, true, original.index_base, job);
-  } catch (const Error &error) {
-    if (error.status() != Status::mesh_intersecting) throw;
-    return false;
-  }
-  return true;
 }
 
 /// Prepares the mesh anew.
@@ -342,7 +335,7 @@ void prepare_boundary(const Input &input, const Options &options, Job &job, Orig
   if (repairs) make_moves(moves ? *moves : find_moves(original, boundary, job), job, boundary, original);
   if (are_dropped || are_merged || !original.moves.empty()) measure_ranges(input, job, original);
   if (repairs) make_conforming(job, boundary, original);
-  if (!moves && !original.opened.empty() && !is_sound(original, boundary, job))
+  if (!moves && !original.opened.empty() && !is_sound(original.view, boundary.triangles, MayTouch::other_solids, job))
     close_cracks(input, options, job, original, boundary);
 }
 

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "conforming.hpp"
-#include "disjoint_sets.hpp"
 #include "face_sweep.hpp"
 #include "field_jumps.hpp"
 #include "folded_back.hpp"
@@ -16,19 +15,10 @@ namespace {
 
 class TouchingParts {
  public:
-  TouchingParts(const Input &input, Span<const Vec3> points, Span<const Tet> tets, Span<const std::uint8_t> used,
-                Job &job, Array<std::int32_t> &representative)
-      : input_(input),
-        points_(points),
-        tets_(tets),
-        used_(used),
-        job_(job),
-        representative_(representative),
-        kept_(job.memory),
-        parts_(representative.size(), job.memory) {}
+  TouchingParts(const SubmittedMesh &mesh, Job &job, Array<std::int32_t> &representative)
+      : mesh_(mesh), job_(job), representative_(representative), kept_(job.memory), parts_(mesh.join_parts(job)) {}
 
   KeptApart keep_apart() {
-    join_tets();
     if (any_apart()) {
       NumberedTets tets = tets_by_place();
       number_parts(tets);
@@ -43,25 +33,10 @@ class TouchingParts {
       }
     }
     if (any_apart()) split_places();
-    for (std::size_t v = 0; v < representative_.size(); v++) kept_.merged += representative_[v] != std::int32_t(v);
     return std::move(kept_);
   }
 
  private:
-  static constexpr std::int32_t large = 64;  // tets
-
-  bool has_all(const Tet &t) const {
-    return std::all_of(t.begin(), t.end(), [&](std::int32_t v) { return used_[std::size_t(v)] != 0; });
-  }
-
-  void join_tets() {
-    for (std::size_t t = 0; t < tets_.size(); t++) {
-      job_.poll_at(t, 0.9);
-      if (!has_all(tets_[t])) continue;
-      for (const std::int32_t v : tets_[t]) parts_.join(tets_[t][0], v);
-    }
-  }
-
   bool is_apart(std::size_t v) { return parts_.lowest(std::int32_t(v)) != parts_.lowest(representative_[v]); }
 
   bool any_apart() {
@@ -72,12 +47,12 @@ class TouchingParts {
 
   /// By place, without those that are none; numbered as they are.
   NumberedTets tets_by_place() const {
-    NumberedTets tets({points_, {}, {}}, {}, job_.memory);
-    for (std::size_t t = 0; t < tets_.size(); t++) {
+    NumberedTets tets({mesh_.points, {}, {}}, {}, job_.memory);
+    for (std::size_t t = 0; t < mesh_.tets.size(); t++) {
       job_.poll_at(t, 0.9);
-      Tet places = tets_[t];
+      Tet places = mesh_.tets[t];
       for (std::int32_t &v : places) v = representative_[std::size_t(v)];
-      if (has_repeated_vertex(places) || !has_all(tets_[t])) continue;
+      if (has_repeated_vertex(places) || !mesh_.has_all(mesh_.tets[t])) continue;
       tets.tets.push_back(places);
       tets.number.push_back(std::int32_t(t));
     }
@@ -89,7 +64,7 @@ class TouchingParts {
   void for_neighbours(const NumberedTets &tets, const Visit &visit) const {
     for_each_face(tets.view(), {}, job_, [&](const FaceUse *first, const FaceUse *last) {
       for (const FaceUse *use = first + 1; use < last; use++)
-        visit(tets_[std::size_t(tets.number[first->tet()])], tets_[std::size_t(tets.number[use->tet()])]);
+        visit(mesh_.tets[std::size_t(tets.number[first->tet()])], mesh_.tets[std::size_t(tets.number[use->tet()])]);
     });
   }
 
@@ -111,8 +86,9 @@ class TouchingParts {
 
   /// Which parts, as submitted, a field jumps between; but not small ones, as the cells of a method that lets it jump.
   void find_torn(const NumberedTets &tets) {
-    if (std::count_if(count_.begin(), count_.end(), [&](std::int32_t count) { return count >= large; }) < 2) return;
-    FieldJumps fields(input_, used_, job_);
+    if (std::count_if(count_.begin(), count_.end(), [&](std::int32_t count) { return count >= large_part; }) < 2)
+      return;
+    FieldJumps fields(mesh_.input, mesh_.used, job_);
     Torn &torn = kept_.torn;
     for_neighbours(tets, [&](const Tet &t, const Tet &u) {
       if (may_be_torn(t, u) && is_torn(fields, t, u)) torn.push_back(pair_of(t, u));
@@ -130,7 +106,7 @@ class TouchingParts {
     if (!close_gaps_of(job_, closed)) return false;
     Torn &torn = kept_.torn;
     const std::size_t before = torn.size();
-    const auto tet = [&](std::int32_t t) { return tets_[std::size_t(closed.number[std::size_t(t)])]; };
+    const auto tet = [&](std::int32_t t) { return mesh_.tets[std::size_t(closed.number[std::size_t(t)])]; };
     for (const auto &[one, other] : find_folded_back(closed, job_)) {
       const Tet t = tet(one), u = tet(other);
       if (may_be_torn(t, u)) torn.push_back(pair_of(t, u));
@@ -140,8 +116,7 @@ class TouchingParts {
   }
 
   void join_anew(const NumberedTets &tets) {
-    parts_ = DisjointSets(representative_.size(), job_.memory);
-    join_tets();
+    parts_ = mesh_.join_parts(job_);
     join_across_faces(tets);
   }
 
@@ -156,11 +131,11 @@ class TouchingParts {
     count_.resize(representative_.size(), 0);
     part_.resize(representative_.size());
     for (std::size_t v = 0; v < part_.size(); v++) part_[v] = parts_.lowest(std::int32_t(v));
-    for (const std::int32_t t : tets.number) count_[std::size_t(part(tets_[std::size_t(t)]))]++;
+    for (const std::int32_t t : tets.number) count_[std::size_t(part(mesh_.tets[std::size_t(t)]))]++;
   }
 
   bool may_be_torn(const Tet &t, const Tet &u) const {
-    const auto is_large = [&](const Tet &of) { return count_[std::size_t(part(of))] >= large; };
+    const auto is_large = [&](const Tet &of) { return count_[std::size_t(part(of))] >= large_part; };
     return part(t) != part(u) && is_large(t) && is_large(u);
   }
   std::int32_t part(const Tet &t) const { return part_[std::size_t(t[0])]; }
@@ -201,10 +176,7 @@ class TouchingParts {
     }
   }
 
-  const Input &input_;
-  Span<const Vec3> points_;
-  Span<const Tet> tets_;
-  Span<const std::uint8_t> used_;
+  const SubmittedMesh &mesh_;
   Job &job_;
   Array<std::int32_t> &representative_;
   KeptApart kept_;
@@ -215,9 +187,8 @@ class TouchingParts {
 
 }  // namespace
 
-KeptApart keep_touching_parts_apart(const Input &input, Span<const Vec3> points, Span<const Tet> tets,
-                                    Span<const std::uint8_t> used, Job &job, Array<std::int32_t> &representative) {
-  return TouchingParts(input, points, tets, used, job, representative).keep_apart();
+KeptApart keep_touching_parts_apart(const SubmittedMesh &mesh, Job &job, Array<std::int32_t> &representative) {
+  return TouchingParts(mesh, job, representative).keep_apart();
 }
 
 }  // namespace tetlod

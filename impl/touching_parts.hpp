@@ -1,15 +1,13 @@
 // Parts of a mesh that have points of their own where they touch, as those of an assembly.
 #pragma once
-#include "job.hpp"
-#include "pipeline.hpp"
+#include "submitted_mesh.hpp"
 
 namespace tetlod {
 
 struct KeptApart {
   explicit KeptApart(Memory &memory) : torn(&memory), asked(&memory) {}
-  std::int64_t merged = 0;  ///< points, all the same
-  Torn torn;                ///< that have faces in common all the same
-  Jumps asked;              ///< on which that depends
+  Torn torn;    ///< that have faces in common all the same
+  Jumps asked;  ///< on which that depends
 };
 
 /// Where parts have a face in common the mesh goes on from the one to the other, unless both have 64 tets, and a field
@@ -19,7 +17,6 @@ struct KeptApart {
 /// place would make slits and edges of four triangles of it. representative: as merge_points() leaves it; of points at
 /// one place, each part's become one of its own. Parts: tets that have points in common, as submitted, or a face by
 /// place. Tets with an unused vertex are none.
-KeptApart keep_touching_parts_apart(const Input &input, Span<const Vec3> points, Span<const Tet> tets,
-                                    Span<const std::uint8_t> used, Job &job, Array<std::int32_t> &representative);
+KeptApart keep_touching_parts_apart(const SubmittedMesh &mesh, Job &job, Array<std::int32_t> &representative);
 
 }  // namespace tetlod

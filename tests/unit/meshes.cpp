@@ -175,6 +175,22 @@ Mesh cracked_cube(int n, double jump) {
   });
 }
 
+Mesh cracked_where_quads_cross(int n, double jump) {
+  Mesh mesh = kuhn_solid({n, n, n / 2}, [](const Cell &) { return true; });
+  Mesh above = mesh;
+  transform(above, [&](const Vec3 &p) { return Vec3(n - p.x, p.y, p.z + n / 2); });
+  set_scalars(above, [&](const Vec3 &) { return jump; });
+  const auto below = std::int32_t(mesh.points.size());
+  append(mesh, above);
+  for (std::int32_t v = below; v < std::int32_t(mesh.points.size()); v++) {
+    const auto end = mesh.points.begin() + below,
+               same = std::find(mesh.points.begin(), end, mesh.points[std::size_t(v)]);
+    if (same == end || std::hypot(same->x - n / 2, same->y - n / 2) < 0.3 * n) continue;
+    for (Tet &t : mesh.tets) std::replace(t.begin(), t.end(), v, std::int32_t(same - mesh.points.begin()));
+  }
+  return mesh;
+}
+
 Mesh open_cracked_cube(int n, double by) {
   Mesh cube = cracked_cube(n, 1);
   for (std::size_t v = 0; v < cube.points.size(); v++)

@@ -66,6 +66,9 @@ Mesh cracked(const Mesh &mesh, const std::function<bool(const Face &)> &is_crack
 Mesh cracked_cube(int n, double jump);
 /// It is open by so much.
 Mesh open_cracked_cube(int n, double by);
+/// The same where hexahedra were split one by one: all quads between the halves are cut along different diagonals from
+/// their two sides. In n^3 unit cells; scalars are 0 below, and `jump` above.
+Mesh cracked_where_quads_cross(int n, double jump);
 
 /// n^3 cells, each solid with the given probability, the lowest always: touches itself at edges and vertices, has
 /// tunnels, cavities and several components.

@@ -65,20 +65,7 @@ TEST_F(CrackedRuns, ALaterStepHasItsOwn) {
 
 /// Sides that are cut in different ways reach into each other where they are bent.
 TEST_F(CrackedRuns, SidesThatWouldCrossAreOne) {
-  constexpr int n = 8;
-  Mesh original = kuhn_solid({n, n, n}, [](const Cell &) { return true; });
-  Mesh above = original;
-  transform(above, [](const Vec3 &p) { return Vec3(n - p.x, p.y, p.z + n); });
-  const auto below = std::int32_t(original.points.size());
-  append(original, above);
-  for (std::int32_t v = below; v < std::int32_t(original.points.size()); v++) {
-    const auto same =
-        std::find(original.points.begin(), original.points.begin() + below, original.points[std::size_t(v)]);
-    if (same == original.points.begin() + below || std::hypot(same->x - n / 2, same->y - n / 2) < 0.3 * n) continue;
-    for (Tet &t : original.tets) std::replace(t.begin(), t.end(), v, std::int32_t(same - original.points.begin()));
-  }
-  for (std::int32_t v = 0; v < std::int32_t(original.points.size()); v++)
-    original.scalars[std::size_t(v)] = v < below ? 0 : 1;
+  const Mesh original = cracked_where_quads_cross(8, 1);
   for (const double bend : {0.0, 0.02}) {
     Mesh bent = original;
     transform(bent, [&](const Vec3 &p) { return Vec3(p.x, p.y, p.z + bend * p.x * p.y); });

@@ -56,9 +56,12 @@ class TouchingParts : public testing::Test {
   std::int64_t merge() {
     merge_all();
     mesh.scalars.resize(mesh.points.size(), 0);
-    return keep_touching_parts_apart(input_of(mesh), mesh.view().points, mesh.view().tets, {used.data(), used.size()},
-                                     host.job, representative)
-        .merged;
+    const Input input = input_of(mesh);
+    keep_touching_parts_apart({input, mesh.view().points, mesh.view().tets, {used.data(), used.size()}}, host.job,
+                              representative);
+    std::int64_t merged = 0;
+    for (std::size_t v = 0; v < representative.size(); v++) merged += representative[v] != std::int32_t(v);
+    return merged;
   }
 
   /// Part by part, tet by tet, until nothing changes.
