@@ -303,9 +303,9 @@ enum {
                                    TETLOD_ERR_MESH_DEGENERATE */
   TETLOD_OPT_ON_INVERTED = 15,  /* "on-inverted": take the tets the other way round; TETLOD_ERR_MESH_DEGENERATE */
   TETLOD_OPT_ON_DUPLICATE = 16, /* "on-duplicate": drop the later tets; TETLOD_ERR_MESH_INTERSECTING */
-  TETLOD_OPT_ON_OVERLAP = 17,   /* "on-overlap": inner neighbours on one side of a face, and solids in contact, are kept
-                                   (tetlod_run), faces that do not fit are divided, and points are moved where tets are
-                                   turned over at the boundary; TETLOD_ERR_MESH_INTERSECTING */
+  TETLOD_OPT_ON_OVERLAP = 17,   /* "on-overlap": where inner neighbours are on one side of a face, tets are turned over:
+                                   points are moved (moved_points); solids in contact are kept (tetlod_run), and faces
+                                   that do not fit divided; TETLOD_ERR_MESH_INTERSECTING */
   TETLOD_OPT_ON_UNUSED = 18,    /* "on-unused": ignore the points; TETLOD_ERR_MESH_DEGENERATE */
   TETLOD_OPT_ON_NONFINITE = 19, /* "on-nonfinite": ignore points without a finite value, with their tets;
                                    TETLOD_ERR_MESH_NONFINITE, the default */

@@ -42,11 +42,9 @@ void Beginning::tell_moves() const {
              static_cast<long long>(original_.opened.size()), moved_by)
             .c_str());
   if (!original_.moves.empty())
-    job_.log(
-        2,
-        text("tets are turned over at the boundary: %lld points are moved, those on it by up to %.2g of the diagonal",
-             static_cast<long long>(original_.moves.size()), moved_by)
-            .c_str());
+    job_.log(2, text("tets are turned over: %lld points are moved, those on the boundary by up to %.2g of the diagonal",
+                     static_cast<long long>(original_.moves.size()), moved_by)
+                    .c_str());
 }
 
 double Beginning::bound() const {

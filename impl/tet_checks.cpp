@@ -64,10 +64,9 @@ std::string make_all_positive(Span<const Vec3> points, Span<Tet> tets, double fr
 
 std::string check_volume(Span<const Vec3> points, Span<const Tet> tets, Span<const Triangle> boundary, double fraction,
                          Job &job) {
-  constexpr double tolerance = 1e-9;
   const double volume = six_volumes(points, tets, fraction, job) / 6;
   const Volume expected = enclosed_volume(points, boundary);
-  if (std::abs(volume - expected.value) <= tolerance * expected.value + expected.uncertainty) return {};
+  if (fills(volume, expected)) return {};
   return "tets overlap or are missing: the volume is " + number(volume / expected.value) + " of the boundary's";
 }
 

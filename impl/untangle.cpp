@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "face_sweep.hpp"
 #include "geometry.hpp"
 #include "random_place.hpp"
+#include "remesh_checks.hpp"
 #include "star_lists.hpp"
 #include "status.hpp"
 
@@ -43,6 +45,13 @@ bool are_oriented(Span<const Triangle> triangles, Job &job) {
   std::uint64_t sum = 0;
   for (const std::uint64_t of_part : sums) sum += of_part;
   return sum == 0;
+}
+
+/// They fill what the boundary encloses, and no more: none inside is turned over.
+bool are_side_by_side(const MeshView &mesh, Span<const Triangle> boundary, Job &job) {
+  const auto add = [&](double &sum, std::size_t t) { sum += std::abs(six_volume(mesh.points, mesh.tets[t])); };
+  const Array<double> sums = parts_of(mesh.tets.size(), 0.0, job, add);
+  return fills(std::accumulate(sums.begin(), sums.end(), 0.0) / 6, enclosed_volume(mesh.points, boundary));
 }
 
 /// Of the face's vertices, as they are seen from outside a positive tet, in ascending order.
@@ -117,7 +126,8 @@ class Uprights {
 
 class Untangling {
  public:
-  Untangling(const Original &original, const Boundary &boundary, Array<Tet> &&upright, Job &job)
+  /// of_boundary: what its vertices move at first; 0: they stay.
+  Untangling(const Original &original, const Boundary &boundary, Array<Tet> &&upright, double of_boundary, Job &job)
       : job_(job),
         before_(original.view.points),
         tets_(std::move(upright)),
@@ -128,7 +138,7 @@ class Untangling {
         is_due_(tets_.size(), 0, &job.memory),
         moved_in_(points_.size(), 0, &job.memory) {
     for (const Triangle &triangle : boundary.triangles)
-      for (const std::int32_t v : triangle) mobility_[std::size_t(v)] = inertia;
+      for (const std::int32_t v : triangle) mobility_[std::size_t(v)] = of_boundary;
     for (std::size_t v = 0; v < original.flags.size(); v++)
       if (original.flags[v] != 0) mobility_[v] = 0;
   }
@@ -262,10 +272,11 @@ bool are_short(const Moves &moves, const Original &original) {
 
 Moves find_moves(const Original &original, const Boundary &boundary, Job &job) {
   const Moves none(&job.memory);
-  if (are_oriented(boundary.triangles, job)) return none;
+  const bool agree = are_oriented(boundary.triangles, job);
+  if (agree && are_side_by_side(original.view, boundary.triangles, job)) return none;
   Array<Tet> upright = Uprights(original.view, job).find();
   if (upright.empty()) return none;
-  Untangling untangling(original, boundary, std::move(upright), job);
+  Untangling untangling(original, boundary, std::move(upright), agree ? 0 : inertia, job);
   if (!untangling.run()) return none;
   Moves moves = untangling.moves();
   return are_short(moves, original) ? std::move(moves) : none;

@@ -1,14 +1,14 @@
-// Where tets that are turned over reach the boundary, as of a mesh that has been bent too far, or of polyhedra that
-// were split: their vertices are moved until they are not.
+// Tets that are turned over, as of a mesh that has been bent too far, or of polyhedra that were split: their vertices
+// are moved until they are not.
 #pragma once
 #include "prepare.hpp"
 
 namespace tetlod {
 
 /// Vertices of tets that are turned over, and of those beside them, each time as little as makes one of these upright;
-/// those of the boundary at first by a tenth of others, and none that the host has flagged. Where the boundary's
-/// triangles agree which side is out there are none; nor where that comes to no end, or goes farther than 0.02 of the
-/// diagonal. boundary: as extract_boundary() leaves it, with nothing excluded.
+/// none that the host has flagged, and those of the boundary at first by a tenth of others, or not where its triangles
+/// agree which side is out. None where that comes to no end, or goes farther than 0.02 of the diagonal. boundary: as
+/// extract_boundary() leaves it, with nothing excluded.
 Moves find_moves(const Original &original, const Boundary &boundary, Job &job);
 
 /// Unless triangles of the boundary do not agree then.

@@ -63,8 +63,7 @@ void note_field(vtkTetlodSimplify &filter, const Arguments &arguments, std::vect
 void note_moved_points(vtkTetlodSimplify &filter, std::vector<std::string> &notes) {
   const std::int64_t points = report_of(filter).moved_points;
   if (points > 0)
-    notes.push_back("cells are turned over at the boundary: " + std::to_string(points) +
-                    " points were moved so that none is");
+    notes.push_back("cells are turned over: " + std::to_string(points) + " points were moved so that none is");
 }
 
 void note_missed_size(vtkTetlodSimplify &filter, std::vector<std::string> &notes) {
