@@ -34,22 +34,58 @@ Array<Vec3> find_centroids(Span<const Vec3> points, Span<const Tet> tets, Job &j
   return centroids;
 }
 
-/// The submitted tet that each tet of the result takes its values from.
-Array<std::int32_t> find_sources(const Options &options, const MeshView &original, Span<const std::int32_t> tet_number,
-                                 const Boundary &boundary, Span<const Vec3> points, const TetMesh &mesh, Job &job) {
-  const Array<Vec3> centroids = find_centroids(points, mesh.tets, job);
+Array<std::int32_t> solids_of_tets(const TetMesh &mesh, Job &job) {
   Array<std::int32_t> solid(&job.memory);
   if (!mesh.solid.empty())
     for (const Tet &t : mesh.tets) solid.push_back(solid_of(mesh.solid, t));
-  Array<Place> places(&job.memory);
-  locate(original, boundary.triangles, centroids, solid, options.tet_leaf, job, places);
-  Array<std::int32_t> sources = array_of(places.size(), -1, job);
-  for_each(places.size(), job, [&](std::size_t i) {
-    const std::int32_t tet = places[i].tet >= 0 ? places[i].tet : boundary.tet_of[std::size_t(places[i].triangle)];
-    sources[i] = tet_number.empty() ? tet : tet_number[std::size_t(tet)];
-  });
-  return sources;
+  return solid;
 }
+
+/// The submitted tets that tets of the result take their values from.
+class Sources {
+ public:
+  /// original: as its view, with solids.
+  Sources(const Options &options, const Original &of, const MeshView &original, const Boundary &boundary, Job &job)
+      : options_(options), of_(of), original_(original), boundary_(boundary), job_(job) {}
+
+  /// solid: of each point, or empty.
+  Array<std::int32_t> find(Array<Vec3> &&points, Span<const std::int32_t> solid) const {
+    Array<Place> places(&job_.memory);
+    locate(original_, boundary_.triangles, points, solid, options_.tet_leaf, job_, places);
+    Array<std::int32_t> sources = array_of(places.size(), -1, job_);
+    for_each(places.size(), job_, [&](std::size_t i) {
+      const std::int32_t tet = places[i].tet >= 0 ? places[i].tet : boundary_.tet_of[std::size_t(places[i].triangle)];
+      sources[i] = of_.tet_number.empty() ? tet : of_.tet_number[std::size_t(tet)];
+      if (places[i].tet < 0) points[i] = point_on_boundary(places[i]);
+    });
+    if (!of_.replaced.empty()) look_among_replaced(points, solid, sources);
+    return sources;
+  }
+
+ private:
+  Vec3 point_on_boundary(const Place &place) const {
+    Vec3 point(0);
+    for (std::size_t k = 0; k < 3; k++)
+      point += place.weights[k] * original_.points[std::size_t(boundary_.triangles[std::size_t(place.triangle)][k])];
+    return point;
+  }
+
+  /// What takes the place of several tets has the number of one of them, or of one beside them.
+  void look_among_replaced(Span<const Vec3> points, Span<const std::int32_t> solid,
+                           Array<std::int32_t> &sources) const {
+    MeshView replaced = original_;
+    replaced.tets = of_.replaced;
+    const Array<std::int32_t> tets = find_tets(replaced, points, solid, options_.tet_leaf, job_);
+    for (std::size_t i = 0; i < tets.size(); i++)
+      if (tets[i] >= 0) sources[i] = of_.replaced_number[std::size_t(tets[i])];
+  }
+
+  const Options &options_;
+  const Original &of_;
+  const MeshView &original_;
+  const Boundary &boundary_;
+  Job &job_;
+};
 
 template <class Way, class T>
 void carry_into(Array<T> &values, const Way &way, std::size_t tuples, const StridedArray &from, Job &job) {
@@ -81,7 +117,8 @@ void carry_fields(const Input &input, const Options &options, const Original &or
   if (any_of_association(input, Association::point))
     find_stencils(view, boundary.triangles, points, result.mesh.solid, options.tet_leaf, job, result.stencil);
   if (any_of_association(input, Association::cell))
-    sources = find_sources(options, view, original.tet_number, boundary, points, result.mesh, job);
+    sources = Sources(options, original, view, boundary, job)
+                  .find(find_centroids(points, result.mesh.tets, job), solids_of_tets(result.mesh, job));
   for (const SubmittedField &field : input.fields) {
     if (field.association == Association::point)
       carry_along(result.stencil, result.mesh.points.size(), field, job, result);

@@ -44,19 +44,23 @@ bool have_same_vertices(Tet one, Tet other) {
   return one == other;
 }
 
-/// Of the original's those that are not among them.
-std::int64_t count_divided(const Original &original, const NumberedTets &tets) {
+/// Of the original's tets those that are not among these.
+void take_replaced(const NumberedTets &tets, Job &job, Original &original) {
   const Span<const Tet> old = original.view.tets;
   const Array<std::int32_t> &number = original.tet_number;
-  std::int64_t left = 0;
+  Array<std::uint8_t> is_left(old.size(), 0, &job.memory);
   for (std::size_t t = 0; t < tets.tets.size(); t++) {
     const std::int32_t of = tets.number[t];
     const auto place = number.empty()
                            ? std::size_t(of)
                            : std::size_t(std::lower_bound(number.begin(), number.end(), of) - number.begin());
-    left += have_same_vertices(tets.tets[t], old[place]);
+    if (have_same_vertices(tets.tets[t], old[place])) is_left[place] = 1;
   }
-  return std::int64_t(old.size()) - left;
+  for (std::size_t t = 0; t < old.size(); t++) {
+    if (is_left[t]) continue;
+    original.replaced.push_back(old[t]);
+    original.replaced_number.push_back(number.empty() ? std::int32_t(t) : number[t]);
+  }
 }
 
 }  // namespace
@@ -68,7 +72,7 @@ void make_conforming(Job &job, Boundary &boundary, Original &original) {
   tets.boundary.flat_tets += boundary.flat_tets;
   tets.boundary.duplicate_tets += boundary.duplicate_tets;
   boundary = std::move(tets.boundary);
-  original.divided_tets = count_divided(original, tets);
+  take_replaced(tets, job, original);
   original.tets = std::move(tets.tets);
   original.tet_number = std::move(tets.number);
   original.view.tets = original.tets;

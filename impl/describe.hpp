@@ -19,7 +19,7 @@ inline void describe_input(const Input &input, const Original &original, Report 
   report.merged_points = original.merged_points;
   report.nonfinite_points = original.nonfinite_points;
   report.dropped_tets = original.dropped_tets;
-  report.divided_tets = original.divided_tets;
+  report.divided_tets = std::int64_t(original.replaced.size());
   report.moved_points = std::int64_t(original.moves.size());
   report.scalar_min = original.scalar_min;
   report.scalar_max = original.scalar_max;

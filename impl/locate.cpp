@@ -102,7 +102,22 @@ class PointTree {
   KdTree tree_;
 };
 
-/// Of each point the tet that holds it best, the lowest of those; -1: none. Each part of the tets has hits of its own.
+/// Without the rounding that makes a weight negative or the sum another than 1.
+void settle(std::array<double, 4> &weights) {
+  double total = 0;
+  for (double &w : weights) total += w = std::max(w, 0.0);
+  for (double &w : weights) w /= total;
+}
+
+void find_on_boundary(const NearestPoint &at, Place &place) {
+  place.triangle = at.triangle;
+  place.weights = {at.weights.x, at.weights.y, at.weights.z, 0};
+  settle(place.weights);
+}
+
+}  // namespace
+
+/// Each part of the tets has hits of its own.
 Array<std::int32_t> find_tets(const MeshView &mesh, Span<const Vec3> points, Span<const std::int32_t> solid,
                               std::int64_t leaf, Job &job) {
   constexpr std::size_t most_parts = 16, most_boxes = 1 << 12;  // for memory's sake
@@ -130,21 +145,6 @@ Array<std::int32_t> find_tets(const MeshView &mesh, Span<const Vec3> points, Spa
       }
   return tets;
 }
-
-/// Without the rounding that makes a weight negative or the sum another than 1.
-void settle(std::array<double, 4> &weights) {
-  double total = 0;
-  for (double &w : weights) total += w = std::max(w, 0.0);
-  for (double &w : weights) w /= total;
-}
-
-void find_on_boundary(const NearestPoint &at, Place &place) {
-  place.triangle = at.triangle;
-  place.weights = {at.weights.x, at.weights.y, at.weights.z, 0};
-  settle(place.weights);
-}
-
-}  // namespace
 
 void locate(const MeshView &mesh, Span<const Triangle> boundary, Span<const Vec3> points,
             Span<const std::int32_t> solid, std::int64_t leaf, Job &job, Array<Place> &places) {

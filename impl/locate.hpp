@@ -16,9 +16,13 @@ struct Place {
   std::array<double, 4> weights{};
 };
 
-/// places[i]: of points[i]; in its solid, solid[i], where the mesh says of several, else solid is empty. Of several
-/// tets that hold a point (within rounding) the one that holds it best, then the lowest. At most `leaf` tets go down
-/// the tree of the points together.
+/// Of each point the tet that holds it (within rounding), of several the one that holds it best, then the lowest; -1:
+/// none. In its solid, solid[i], where the mesh says of several, else solid is empty. At most `leaf` tets go down the
+/// tree of the points together.
+Array<std::int32_t> find_tets(const MeshView &mesh, Span<const Vec3> points, Span<const std::int32_t> solid,
+                              std::int64_t leaf, Job &job);
+
+/// places[i]: of points[i], as above, or on the boundary.
 void locate(const MeshView &mesh, Span<const Triangle> boundary, Span<const Vec3> points,
             Span<const std::int32_t> solid, std::int64_t leaf, Job &job, Array<Place> &places);
 

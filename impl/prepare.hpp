@@ -26,6 +26,8 @@ struct Original {
         scalars(&memory),
         tets(&memory),
         tet_number(&memory),
+        replaced(&memory),
+        replaced_number(&memory),
         flags(&memory),
         used(&memory),
         left(&memory),
@@ -40,7 +42,9 @@ struct Original {
   Array<Vec3> moved;      ///< the view's, where some have been moved; else empty
   Array<double> scalars;  ///< with those of the further fields that steer, and of merged points the middles
   Array<Tet> tets;
-  Array<std::int32_t> tet_number;     ///< of each tet among the submitted ones; empty: none was dropped
+  Array<std::int32_t> tet_number;       ///< of each tet among the submitted ones; empty: none was dropped
+  Array<Tet> replaced;                  ///< that others take the place of: make_conforming
+  Array<std::int32_t> replaced_number;  ///< of each of them, as above
   Array<std::uint8_t> flags;          ///< of each vertex, those of points that became it included; empty: none are set
   Array<std::uint8_t> used;           ///< of each submitted point: a submitted tet has it, and all of it is finite
   Array<std::uint8_t> left;           ///< of each: a tet of the view has it; empty: none was dropped
@@ -53,7 +57,6 @@ struct Original {
   Jumps jumps;                        ///< on which it depends which points became one
   std::int64_t nonfinite_points = 0;  ///< without a finite value, ignored with their tets
   std::int64_t dropped_tets = 0;      ///< with such a point, or with a repeated vertex, as submitted or after merging
-  std::int64_t divided_tets = 0;      ///< that others take the place of: make_conforming
   Moves moves;                        ///< where tets were turned over: find_moves()
   double boundary_moved_by = 0;       ///< the farthest of these on the boundary, and of opened
   std::int32_t index_base = 0;        ///< as submitted

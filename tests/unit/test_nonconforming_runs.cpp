@@ -1,4 +1,7 @@
 // Runs on meshes that do not conform: quads are cut along both diagonals, or vertices hang on edges.
+#include <numeric>
+
+#include "geometry.hpp"
 #include "whole_run.hpp"
 
 namespace tetlod {
@@ -48,6 +51,31 @@ TEST_F(NonconformingRuns, HoldTheBound) {
     expect_cube();
     EXPECT_LE(report().max_error, bound);
     EXPECT_LE(brute_largest_error(original, mesh()), bound * (1 + 1e-9));
+  }
+}
+
+/// That of the submitted tet that holds the middle of a tet is its number, also where others took the place of several.
+TEST_F(NonconformingRuns, CellsTakeTheValueOfTheSubmittedTet) {
+  std::vector<std::int32_t> numbers(original.tets.size());
+  std::iota(numbers.begin(), numbers.end(), 0);
+  Input input = input_of(original);
+  input.fields.push_back(
+      {"number", Association::cell, strided(numbers.data(), numbers.size(), 1, 1, ElementType::int32)});
+  for (const double ratio : {1.0, 0.5, 0.1}) {
+    options.target_ratio = ratio;
+    result = Result(host.memory);
+    run(input, options, worker, host.job, result);
+    const auto &taken = result.fields.at(0).integers;
+    ASSERT_EQ(taken.size(), mesh().tets.size());
+    for (std::size_t t = 0; t < taken.size(); t++) {
+      Vec3 middle(0);
+      for (const std::int32_t v : mesh().tets[t]) middle += 0.25 * mesh().points[std::size_t(v)];
+      const Tet &source = original.tets[std::size_t(taken[t])];
+      double w[4];
+      ASSERT_TRUE(barycentric(middle, original.points[std::size_t(source[0])], original.points[std::size_t(source[1])],
+                              original.points[std::size_t(source[2])], original.points[std::size_t(source[3])], w));
+      EXPECT_GT(*std::min_element(w, w + 4), -1e-6) << "tet " << t << " to " << ratio;
+    }
   }
 }
 
