@@ -35,15 +35,15 @@ void Beginning::tell_unequal_fields() const {
 void Beginning::tell_moves() const {
   if (!job_.log) return;
   const double moved_by = original_.boundary_moved_by / original_.box.diagonal();
-  if (!original_.opened.empty())
+  if (!original_.moves.opened.empty())
     job_.log(
         2,
         text("a field jumps across cracks: %lld points of their sides lie apart, by up to twice %.2g of the diagonal",
-             static_cast<long long>(original_.opened.size()), moved_by)
+             static_cast<long long>(original_.moves.opened.size()), moved_by)
             .c_str());
-  if (!original_.moves.empty())
+  if (!original_.moves.upright.empty())
     job_.log(2, text("tets are turned over: %lld points are moved, those on the boundary by up to %.2g of the diagonal",
-                     static_cast<long long>(original_.moves.size()), moved_by)
+                     static_cast<long long>(original_.moves.upright.size()), moved_by)
                     .c_str());
 }
 
@@ -91,7 +91,6 @@ void Beginning::extract() {
   if (!report_.reused_tets) prepare_boundary(input_, options_, job_, original_, boundary_);
   prepared_.complete();
   result_.torn = original_.torn;
-  result_.opened = original_.opened;
   result_.moves = original_.moves;
   describe_input(input_, original_, report_);
   describe_extraction(boundary_, report_);

@@ -154,15 +154,14 @@ void find_stencil(const Input &input, const Options &options, Prepared &prepared
   const Fingerprint mesh = fingerprint_of_mesh(input, options, job);
   refuse_changed(mesh, result);
   Prepared fresh(job.memory);
-  const bool held = prepared.holds(mesh, input, options, job) && prepared.original.moves == result.moves &&
-                    prepared.original.opened == result.opened;
+  const bool held = prepared.holds(mesh, input, options, job) && prepared.original.moves == result.moves;
   if (!held) {
     Input bare = input;
     bare.flags = {};  // which change nothing but moves, and may be wrong
-    prepare_with_boundary(bare, options, job, fresh.original, fresh.boundary, &result.opened, &result.moves);
+    prepare_with_boundary(bare, options, job, fresh.original, fresh.boundary, &result.moves);
   }
   Prepared &of = held ? prepared : fresh;
-  if (of.original.torn != result.torn || of.original.opened != result.opened)
+  if (of.original.torn != result.torn || !(of.original.moves.opened == result.moves.opened))
     fail(Status::state, "a field jumps in other places of the mesh since the run that made the result");
   MeshView view = of.original.view;
   if (!result.mesh.solid.empty()) view.solid = of.solids(job);

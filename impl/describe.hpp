@@ -20,7 +20,7 @@ inline void describe_input(const Input &input, const Original &original, Report 
   report.nonfinite_points = original.nonfinite_points;
   report.dropped_tets = original.dropped_tets;
   report.divided_tets = std::int64_t(original.replaced.size());
-  report.moved_points = std::int64_t(original.moves.size());
+  report.moved_points = std::int64_t(original.moves.upright.size());
   report.scalar_min = original.scalar_min;
   report.scalar_max = original.scalar_max;
   report.keeps_some =

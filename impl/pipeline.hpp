@@ -139,6 +139,17 @@ struct Move {
 };
 using Moves = Array<Move>;
 
+/// One step after another.
+struct PointMoves {
+  explicit PointMoves(Memory &memory) : placed(&memory), opened(&memory), upright(&memory) {}
+  Moves placed;   ///< points that stand for others, of which the host flags one: to the place of the first of these
+  Moves opened;   ///< points of cracks that a field jumps across: their sides lie apart
+  Moves upright;  ///< where tets were turned over: find_moves()
+  bool operator==(const PointMoves &o) const {
+    return placed == o.placed && opened == o.opened && upright == o.upright;
+  }
+};
+
 /// Pairs of parts of a mesh as submitted, each known by the lowest of its points, ascending.
 using Torn = Array<std::pair<std::int32_t, std::int32_t>>;
 
@@ -150,15 +161,14 @@ struct MayJump {
 using Jumps = Array<MayJump>;
 
 struct Result {
-  explicit Result(Memory &memory) : mesh(memory), stencil(memory), torn(&memory), opened(&memory), moves(&memory) {}
+  explicit Result(Memory &memory) : mesh(memory), stencil(memory), torn(&memory), moves(memory) {}
   TetMesh mesh;
   Stencil stencil;                   ///< of the mesh's points, numbered as the caller's; empty until a field needs it
   std::vector<CarriedField> fields;  ///< and those that steered beside the scalars
   Report report;
   Fingerprint original;  ///< of its points and tets
   Torn torn;             ///< parts of it that stayed apart, though they have faces in common
-  Moves opened;          ///< of it: Original::opened
-  Moves moves;           ///< of it
+  PointMoves moves;      ///< of it
 };
 
 /// Simplifies; throws Error. `result` is meant to be a fresh one: after a throw its contents mean nothing. Takes what

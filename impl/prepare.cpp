@@ -190,18 +190,22 @@ Box scale_extreme_coordinates(const Box &box, Job &job, Original &original) {
   return {scaled(box.low), scaled(box.high)};
 }
 
-void take_cracks(Cracks &&cracks, Job &job, Original &original) {
-  original.opened = std::move(cracks.opened);
-  if (original.opened.empty()) return;
+/// In an array of its own.
+void move_points(const Moves &moves, Job &job, Original &original) {
+  if (moves.empty()) return;
   Array<Vec3> points = array_of(original.view.points.size(), Vec3(0), job);
   for_each(points.size(), job, [&](std::size_t v) { points[v] = original.view.points[v]; });
-  for (const Move &move : original.opened) {
-    Vec3 &point = points[std::size_t(move.vertex)];
-    original.boundary_moved_by = std::max(original.boundary_moved_by, glm::distance(point, move.to));
-    point = move.to;
-  }
+  for (const Move &move : moves) points[std::size_t(move.vertex)] = move.to;
   original.points = std::move(points);
   original.view.points = original.points;
+}
+
+void take_cracks(Moves &&opened, Job &job, Original &original) {
+  for (const Move &move : opened)
+    original.boundary_moved_by =
+        std::max(original.boundary_moved_by, glm::distance(original.view.points[std::size_t(move.vertex)], move.to));
+  move_points(opened, job, original);
+  original.moves.opened = std::move(opened);
 }
 
 void read_flags(const Input &input, Span<const std::int32_t> representative, Job &job, Original &original) {
@@ -215,6 +219,21 @@ void read_flags(const Input &input, Span<const std::int32_t> representative, Job
            v + std::size_t(input.index_base), int(flags));
     original.flags[std::size_t(representative[v])] |= flags;
   }
+}
+
+/// As its value does, the place counts of the first of such points that the host flags.
+Moves find_places_of_flagged(const Input &input, Span<const std::int32_t> representative, Job &job,
+                             const Original &original) {
+  Moves moves(&job.memory);
+  if (original.flags.empty() || original.merged_points == 0) return moves;
+  Array<std::int32_t> first(representative.size(), -1, &job.memory);
+  for (std::size_t v = representative.size(); v-- > 0;)
+    if (input.flags.at<std::uint8_t>(std::int64_t(v), 0)) first[std::size_t(representative[v])] = std::int32_t(v);
+  const Span<const Vec3> points = original.view.points;
+  for (std::size_t v = 0; v < first.size(); v++)
+    if (first[v] >= 0 && points[std::size_t(first[v])] != points[v])
+      moves.push_back({std::int32_t(v), points[std::size_t(first[v])]});
+  return moves;
 }
 
 bool any_repeated_vertex(Span<const Tet> tets, Job &job) {
@@ -245,10 +264,11 @@ void drop_excluded(Job &job, Boundary &boundary, Original &original) {
 /// Prepares the mesh anew.
 void close_cracks(const Input &input, const Options &options, Job &job, Original &original, Boundary &boundary) {
   Jumps jumps = std::move(original.jumps);
+  PointMoves made = std::move(original.moves);
+  made.opened.clear();
   original = Original(job.memory);
   boundary = Boundary(job.memory);
-  const Moves none(&job.memory);
-  prepare_original(input, options, job, original, &none);
+  prepare_original(input, options, job, original, &made);
   original.jumps = std::move(jumps);
   prepare_boundary(input, options, job, original, boundary);
 }
@@ -293,7 +313,8 @@ int extreme_exponent(const Box &box) {
   return std::abs(exponent) > far_from_one ? exponent : 0;
 }
 
-void prepare_original(const Input &input, const Options &options, Job &job, Original &original, const Moves *opened) {
+void prepare_original(const Input &input, const Options &options, Job &job, Original &original,
+                      const PointMoves *made) {
   check_counts(input);
   original.index_base = input.index_base;
   original.view.points = read_points(input, job, original.points);
@@ -306,14 +327,17 @@ void prepare_original(const Input &input, const Options &options, Job &job, Orig
   // The diagonal here is that of what was submitted: which tets are left is not known before points are merged.
   Array<std::int32_t> representative(&job.memory);
   Merged merged = merge_coincident(input, original.view.points, original.view.tets, original.used, submitted, options,
-                                   job, representative, opened);
+                                   job, representative, made ? &made->opened : nullptr);
   original.merged_points = merged.points;
   if (merged.points > 0) original.next_merged = chain_merged(representative, job);
   original.merging_depends = merged.depends;
   original.jumps = std::move(merged.asked);
   original.torn = std::move(merged.torn);
-  take_cracks(std::move(merged.cracks), job, original);
+  take_cracks(std::move(merged.cracks.opened), job, original);
   read_flags(input, representative, job, original);
+  original.moves.placed =
+      made ? Moves(made->placed, &job.memory) : find_places_of_flagged(input, representative, job, original);
+  move_points(original.moves.placed, job, original);
   if (original.merged_points || original.nonfinite_points || any_repeated_vertex(original.view.tets, job))
     drop_and_rename(representative, job, original);
   if (original.view.tets.empty())
@@ -323,7 +347,7 @@ void prepare_original(const Input &input, const Options &options, Job &job, Orig
 }
 
 void prepare_boundary(const Input &input, const Options &options, Job &job, Original &original, Boundary &boundary,
-                      const Moves *moves) {
+                      const PointMoves *made) {
   extract_boundary(original.view, job, boundary, original.numbers());
   const bool are_dropped = !boundary.excluded.empty(), are_merged = original.merged_points > 0;
   if (are_dropped) drop_excluded(job, boundary, original);
@@ -332,17 +356,18 @@ void prepare_boundary(const Input &input, const Options &options, Job &job, Orig
     take_merged_values(input, job, original);
   }
   const bool repairs = options.on_overlap == policy_repair;
-  if (repairs) make_moves(moves ? *moves : find_moves(original, boundary, job), job, boundary, original);
-  if (are_dropped || are_merged || !original.moves.empty()) measure_ranges(input, job, original);
+  if (repairs) make_moves(made ? made->upright : find_moves(original, boundary, job), job, boundary, original);
+  if (are_dropped || are_merged || !original.moves.upright.empty()) measure_ranges(input, job, original);
   if (repairs) make_conforming(job, boundary, original);
-  if (!moves && !original.opened.empty() && !is_sound(original.view, boundary.triangles, MayTouch::other_solids, job))
+  if (!made && !original.moves.opened.empty() &&
+      !is_sound(original.view, boundary.triangles, MayTouch::other_solids, job))
     close_cracks(input, options, job, original, boundary);
 }
 
 void prepare_with_boundary(const Input &input, const Options &options, Job &job, Original &original, Boundary &boundary,
-                           const Moves *opened, const Moves *moves) {
-  prepare_original(input, options, job, original, opened);
-  prepare_boundary(input, options, job, original, boundary, moves);
+                           const PointMoves *made) {
+  prepare_original(input, options, job, original, made);
+  prepare_boundary(input, options, job, original, boundary, made);
 }
 
 bool renew_values(const Input &input, Job &job, Original &original) {

@@ -34,9 +34,8 @@ struct Original {
         next_merged(&memory),
         counts(&memory),
         torn(&memory),
-        opened(&memory),
         jumps(&memory),
-        moves(&memory) {}
+        moves(memory) {}
   MeshView view;
   Array<Vec3> points;
   Array<Vec3> moved;      ///< the view's, where some have been moved; else empty
@@ -51,16 +50,15 @@ struct Original {
   Array<std::int32_t> next_merged;    ///< of each point, the next one that became the same, or -1; empty: none did
   Array<std::uint8_t> counts;         ///< of each, whether a submitted tet that is left has it; empty with that
   Torn torn;                          ///< parts whose points did not, though they have faces in common
-  Moves opened;                       ///< points of cracks that a field jumps across: their sides lie apart
   std::int64_t merged_points = 0;     ///< coincident points that became one
   bool merging_depends = false;       ///< on whether parts may be in contact, and on max-deviation
   Jumps jumps;                        ///< on which it depends which points became one
   std::int64_t nonfinite_points = 0;  ///< without a finite value, ignored with their tets
   std::int64_t dropped_tets = 0;      ///< with such a point, or with a repeated vertex, as submitted or after merging
-  Moves moves;                        ///< where tets were turned over: find_moves()
-  double boundary_moved_by = 0;       ///< the farthest of these on the boundary, and of opened
-  std::int32_t index_base = 0;        ///< as submitted
-  int exponent = 0;                   ///< the view's coordinates are the caller's divided by 2^exponent
+  PointMoves moves;
+  double boundary_moved_by = 0;              ///< the farthest of those opened, and of those upright on the boundary
+  std::int32_t index_base = 0;               ///< as submitted
+  int exponent = 0;                          ///< the view's coordinates are the caller's divided by 2^exponent
   double scalar_min = 0, scalar_max = 0;     ///< over the vertices that tets of the view have
   std::array<Spread, most_fields> spread{};  ///< of each field that steers
   ValueRange<most_fields> spread_range;      ///< of values of points that became one, where they differ
@@ -93,18 +91,18 @@ void check_count(const Input &input, const std::string &field, std::int64_t tupl
 /// Coordinates so large or small that their sixth powers leave the range of doubles are scaled, exactly.
 /// Throws what check_counts does, mesh_index, mesh_nonfinite.
 void prepare_original(const Input &input, const Options &options, Job &job, Original &original,
-                      const Moves *opened = nullptr);
+                      const PointMoves *made = nullptr);
 
 /// Then: extract_boundary. What it leaves out of the view, flat tets that hang on it and those given twice, is dropped,
 /// and points that no other tet has are none of the mesh any more. Where overlaps are repaired, vertices
 /// are moved, these or find_moves(), and then make_conforming. Where the boundary is not sound with cracks that are
 /// open, and moves are not given, it is anew without, and so is original.
 void prepare_boundary(const Input &input, const Options &options, Job &job, Original &original, Boundary &boundary,
-                      const Moves *moves = nullptr);
+                      const PointMoves *made = nullptr);
 
-/// prepare_original and prepare_boundary. opened, moves: Original's that were made before.
+/// prepare_original and prepare_boundary.
 void prepare_with_boundary(const Input &input, const Options &options, Job &job, Original &original, Boundary &boundary,
-                           const Moves *opened = nullptr, const Moves *moves = nullptr);
+                           const PointMoves *made = nullptr);
 
 /// The same as prepare_original of a mesh whose points, tets, flags and options are what they were, and other values.
 /// False: it takes prepare_original, because the values change what the mesh is, or are none.

@@ -293,7 +293,7 @@ void make_moves(const Moves &moves, Job &job, Boundary &boundary, Original &orig
   if (!of_moved.excluded.empty() || !are_oriented(of_moved.triangles, job)) return;
   boundary.triangles = std::move(of_moved.triangles);
   boundary.tet_of = std::move(of_moved.tet_of);
-  original.moves.assign(moves.begin(), moves.end());
+  original.moves.upright.assign(moves.begin(), moves.end());
   original.moved = std::move(points);
   original.view.submitted = original.view.points;
   original.view.points = original.moved;

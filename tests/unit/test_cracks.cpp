@@ -37,7 +37,7 @@ class CrackTest : public PreparedMesh {
   /// staying: points of one side that are not moved.
   void expect_open(const Mesh &mesh, std::int64_t staying = 0) {
     EXPECT_EQ(original.merged_points, 0);
-    EXPECT_EQ(std::int64_t(original.opened.size()), 2 * doubled(mesh) - staying);
+    EXPECT_EQ(std::int64_t(original.moves.opened.size()), 2 * doubled(mesh) - staying);
     EXPECT_EQ(oriented_triangles(boundary.triangles), brute_boundary(mesh));
     Mesh opened = mesh;
     opened.points.assign(original.view.points.begin(), original.view.points.end());
@@ -57,7 +57,7 @@ class CrackTest : public PreparedMesh {
 
   void expect_closed(const Mesh &mesh) {
     EXPECT_EQ(original.merged_points, doubled(mesh));
-    EXPECT_TRUE(original.opened.empty());
+    EXPECT_TRUE(original.moves.opened.empty());
     for (std::size_t v = 0; v < mesh.points.size(); v++) EXPECT_EQ(original.view.points[v], mesh.points[v]);
   }
 
@@ -134,7 +134,7 @@ TEST_F(CrackTest, AreOpenWhereTheirSidesAreCutInOtherWays) {
     ASSERT_GT(doubled_in_crack, 8);
     prepare(mesh);
     EXPECT_EQ(original.merged_points, jump > 0 ? 0 : doubled_in_crack);
-    EXPECT_EQ(std::int64_t(original.opened.size()), jump > 0 ? 2 * doubled_in_crack : 0);
+    EXPECT_EQ(std::int64_t(original.moves.opened.size()), jump > 0 ? 2 * doubled_in_crack : 0);
     EXPECT_EQ(facts_of(boundary.triangles).components, jump > 0 ? 2 : 1);
     EXPECT_EQ(facts_of(boundary.triangles).euler, jump > 0 ? 4 : 2);
   }
@@ -184,7 +184,7 @@ TEST_F(CrackTest, FlaggedPointsStay) {
     if (both)
       expect_closed(mesh);
     else
-      EXPECT_EQ(std::int64_t(original.opened.size()), doubled(mesh));
+      EXPECT_EQ(std::int64_t(original.moves.opened.size()), doubled(mesh));
   }
 }
 
@@ -207,7 +207,7 @@ TEST_F(CrackTest, AreNoThinPlates) {
   set_scalars(plate, [](const Vec3 &p) { return p.x + 1e4 * p.z; });
   original = Original(host.memory);
   prepare_original(input_of(plate), options, host.job, original);
-  EXPECT_TRUE(original.opened.empty());
+  EXPECT_TRUE(original.moves.opened.empty());
   EXPECT_GT(original.merged_points, 100);
 }
 
@@ -231,7 +231,7 @@ TEST_F(CrackTest, WithMostOfThePointsAreClosed) {
     if (width == 3)
       expect_closed(mesh);
     else
-      EXPECT_GT(original.opened.size(), 100U);
+      EXPECT_GT(original.moves.opened.size(), 100U);
   }
 }
 

@@ -1,7 +1,9 @@
 // Cells with points of their own, as discontinuous methods have them: what is told, and bounded, is true of each one's
 // values.
 #include <random>
+#include <set>
 
+#include "carry_fields.hpp"
 #include "whole_run.hpp"
 
 namespace tetlod {
@@ -85,6 +87,43 @@ TEST_F(MergedRuns, ALaterStepHasItsOwn) {
     simplify(step);
     EXPECT_EQ(again.report.hash, report().hash);
     EXPECT_EQ(again.report.max_error, report().max_error);
+  }
+}
+
+/// Where a neighbour's result is to fit bit for bit, coordinates that rounding made others of count as they are.
+TEST_F(MergedRuns, AFlaggedPointKeepsItsOwnPlace) {
+  Mesh cube = kuhn_cube(6);
+  set_scalars(cube, waves);
+  Mesh original = with_points_of_their_own(cube);
+  std::vector<std::uint8_t> flags(original.points.size(), 0);
+  std::set<std::array<double, 3>> seen, places;
+  const auto numbers = [](const Vec3 &p) { return std::array<double, 3>{p.x, p.y, p.z}; };
+  for (std::size_t v = 0; v < flags.size(); v++) {
+    Vec3 &p = original.points[v];
+    if (p.x != 1 || seen.insert(numbers(p)).second) continue;  // the first one there is not flagged
+    p.x = std::nextafter(1, 2);
+    flags[v] = lock_vertex;
+    places.insert(numbers(p));
+  }
+  ASSERT_EQ(places.size(), seen.size());
+  Input input = input_of(original);
+  input.flags = strided(flags.data(), flags.size(), 1, 1, ElementType::uint8);
+  Input with_field = input;
+  with_field.fields.push_back({"field", Association::point, input.scalars});
+  for (const double ratio : {1.0, 0.2, 0.0}) {
+    options = Options();
+    options.target_ratio = ratio;
+    result = Result(host.memory);
+    run(with_field, options, worker, host.job, result);
+    std::set<std::array<double, 3>> missing = places;
+    for (const Vec3 &p : mesh().points) missing.erase(numbers(p));
+    EXPECT_TRUE(missing.empty()) << missing.size() << " to " << ratio;
+    const Stencil stencil = std::move(result.stencil);  // flags may be others by the time that one is asked for
+    result.stencil = Stencil(host.memory);
+    Prepared prepared(host.memory);
+    find_stencil(input_of(original), options, prepared, host.job, result);
+    EXPECT_EQ(result.stencil.ids, stencil.ids);
+    EXPECT_EQ(result.stencil.weights, stencil.weights);
   }
 }
 

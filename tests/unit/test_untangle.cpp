@@ -68,7 +68,7 @@ class Untangle : public PreparedMesh {
     EXPECT_EQ(turned(original.view.points), 0);
     EXPECT_TRUE(facts_of(boundary.triangles).closed);
     EXPECT_GT(moved(), 0);
-    EXPECT_EQ(std::int64_t(original.moves.size()), moved());
+    EXPECT_EQ(std::int64_t(original.moves.upright.size()), moved());
     Mesh is = mesh;
     is.points.assign(original.view.points.begin(), original.view.points.end());
     EXPECT_EQ(oriented_triangles(boundary.triangles), brute_boundary(is));
@@ -87,7 +87,7 @@ class Untangle : public PreparedMesh {
     EXPECT_EQ(original.box.diagonal(), box_of(original.view.points).diagonal());
   }
   void expect_untouched() {
-    EXPECT_TRUE(original.moves.empty());
+    EXPECT_TRUE(original.moves.upright.empty());
     EXPECT_EQ(original.boundary_moved_by, 0);
     EXPECT_EQ(moved(), 0);
   }
@@ -114,7 +114,7 @@ TEST_F(Untangle, ManyVerticesThatWentAstray) {
     std::normal_distribution<double> stray(0, 0.1 * cell);
     for (Vec3 &p : mesh.points) p += Vec3(stray(random), stray(random), stray(random));
     prepare(mesh);
-    if (original.moves.empty()) continue;
+    if (original.moves.upright.empty()) continue;
     untangled++;
     expect_untangled();
   }
@@ -129,7 +129,7 @@ TEST_F(Untangle, WhateverWayTetsAreWound) {
   for (Tet &t : mesh.tets)
     if (random() % 2) std::swap(t[2], t[3]);
   prepare(mesh);
-  EXPECT_EQ(std::int64_t(original.moves.size()), moved());
+  EXPECT_EQ(std::int64_t(original.moves.upright.size()), moved());
   for (std::size_t v = 0; v < one_way.size(); v++) EXPECT_LT(glm::distance(original.view.points[v], one_way[v]), 1e-12);
 }
 
