@@ -455,7 +455,7 @@ TETLOD_API tetlod_status tetlod_fetch_counts(const tetlod_context *context, int6
  * TETLOD_ERR_BUFFER_SIZE); tuples beyond the result's count are left alone, dst itself is not changed.
  * float32 rounds to nearest; integers are TETLOD_INT32 or TETLOD_INT64. */
 TETLOD_API tetlod_status tetlod_fetch_points(const tetlod_context *context, tetlod_array *dst);
-/* 4 components; det(p1 - p0, p2 - p0, p3 - p0) > 0 (in double precision). */
+/* 4 components; det(p1 - p0, p2 - p0, p3 - p0) > 0 (in double precision, of 1e-100 to 1e100). */
 TETLOD_API tetlod_status tetlod_fetch_tets(const tetlod_context *context, int32_t index_base, tetlod_array *dst);
 /* 3 components, counter-clockwise seen from outside. */
 TETLOD_API tetlod_status tetlod_fetch_boundary(const tetlod_context *context, int32_t index_base, tetlod_array *dst);

@@ -191,6 +191,8 @@ Descriptor shared_file(const char *name) {
   return lifted(low, "shared memory");
 }
 
+bool Ending::is_kill() const { return known && by_signal && status == SIGKILL; }
+
 std::string Ending::text() const {
   if (!known) return "an ending that the host has collected";
   if (!by_signal) return tetlod::text("exit status %d", status);
@@ -229,6 +231,8 @@ void ChildProcess::start(const std::string &path, const Descriptor &request, con
   ::kill(pid, SIGKILL);
   while (::waitpid(pid, nullptr, 0) < 0 && errno == EINTR) {
   }
+  if (error == ENOSYS)
+    fail(Status::backend_missing, "the system has no handles of processes, which Linux has from 5.4 on (remesh: 0)");
   fail_for_want_of("a process handle", error);
 }
 

@@ -39,6 +39,7 @@ Descriptor shared_file(const char *name);
 struct Ending {
   bool known, by_signal;
   int status;
+  bool is_kill() const;      ///< as for want of memory
   std::string text() const;  ///< "exit status 3", "signal 11 (SEGV)"
 };
 
@@ -46,8 +47,8 @@ struct Ending {
 /// standard output and error in a pipe.
 class ChildProcess {
  public:
-  /// Throws Status::backend_missing when the path cannot be executed, Status::memory when the system is short of
-  /// processes, descriptors or memory.
+  /// Throws Status::backend_missing when the path cannot be executed, or the system has no pidfds, Status::memory when
+  /// it is short of processes, descriptors or memory.
   ChildProcess(const std::string &path, const Descriptor &request, const Descriptor &response);
   /// Kills and reaps. In a process forked from the one that started it, does nothing.
   ~ChildProcess();

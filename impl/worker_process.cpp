@@ -113,6 +113,8 @@ void WorkerProcess::check_greeting(Answer answer, const protocol::Hello &hello, 
     output_.flush(job);
     if (ending.known && !ending.by_signal && ending.status == protocol::no_thread)
       fail(Status::memory, "the system has no thread for %s", path_.c_str());
+    if (ending.is_kill())
+      fail(Status::memory, "%s was killed before its greeting, perhaps for want of memory", path_.c_str());
     throw Error(Status::backend_missing, path_ + " ended with " + ending.text() + " before its greeting; " +
                                              (output_.last_line().empty() ? "it said nothing" : output_.last_line()));
   }
@@ -202,7 +204,7 @@ void WorkerProcess::give_up_dead(Job &job, TetgenReply &reply) {
   const Ending ending = child_->end();
   output_.drain(*child_, job);
   output_.flush(job);
-  const bool killed = by_itself && ending.known && ending.by_signal && ending.status == SIGKILL;
+  const bool killed = by_itself && ending.is_kill();
   give_up(killed ? worker_killed : worker_died, "died with " + ending.text(), reply);
 }
 

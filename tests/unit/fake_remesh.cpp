@@ -45,6 +45,7 @@ void greet() {
     std::fprintf(stderr, "no such library");
     std::exit(127);
   }
+  if (is("is killed at start")) std::raise(SIGKILL);
   if (is("never greets")) hang();
   Hello hello;
   std::strcpy(hello.tetlod_version, TETLOD_VERSION);

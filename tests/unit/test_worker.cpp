@@ -1,7 +1,13 @@
 // Worker: nothing that the worker process does reaches the host but as a value or a Status.
+#include <linux/filter.h>
+#include <linux/seccomp.h>
 #include <signal.h>
+#include <sys/prctl.h>
+#include <sys/syscall.h>
 
 #include <atomic>
+#include <cerrno>
+#include <cstddef>
 #include <cstring>
 #include <thread>
 #include <utility>
@@ -267,6 +273,36 @@ TEST_F(WorkerTest, DiesAtStart) {
   EXPECT_EQ(thrown(), Status::backend_missing);
   EXPECT_NE(message.find("exit status 127"), std::string::npos) << message;
   EXPECT_NE(message.find("no such library"), std::string::npos) << message;
+}
+
+/// Not by a fault of the installation.
+TEST_F(WorkerTest, IsKilledAtStart) {
+  fake("is killed at start");
+  EXPECT_EQ(thrown(), Status::memory);
+  EXPECT_NE(message.find("killed"), std::string::npos) << message;
+}
+
+/// As before Linux 5.3, whatever the container. Of this thread alone. False: it may not be.
+bool do_without_pidfds() {
+  sock_filter steps[] = {BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
+                         BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_pidfd_open, 0, 1),
+                         BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | ENOSYS),
+                         BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW)};
+  const sock_fprog program{4, steps};
+  return ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 && ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0;
+}
+
+TEST_F(WorkerTest, TheSystemHasNoPidfds) {
+  use(TETLOD_REMESH);
+  bool has_none = false;
+  Status status = Status::ok;
+  std::thread([&] {
+    has_none = do_without_pidfds();
+    status = thrown();
+  }).join();
+  if (!has_none) GTEST_SKIP() << "the system allows no filter of its calls";
+  EXPECT_EQ(status, Status::backend_missing);
+  EXPECT_TRUE(children_of(::getpid()).empty());
 }
 
 TEST_F(WorkerTest, EnvironmentNamesIt) {
