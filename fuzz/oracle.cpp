@@ -106,7 +106,7 @@ std::vector<std::vector<Face>> components_of(const std::vector<Point> &points, c
 bool has_contacts(const std::vector<Point> &points, const std::vector<Face> &faces) {
   CutSurface cut(points, faces);
   tetlod::TreeOnDemand tree(cut.surface);
-  return !tetlod::find_contacts(cut.surface, cut.topology, tree, cut.job).empty();
+  return !tetlod::find_contacts(cut.surface, cut.topology, tree, true, cut.job).empty();
 }
 
 Point minus(const Point &a, const Point &b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }

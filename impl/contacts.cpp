@@ -60,19 +60,37 @@ double reach_of(const Vec3 a[3], const Vec3 b[3]) {
 
 class ContactFinder {
  public:
-  ContactFinder(const Surface &surface, const SurfaceTopology &topology, const TriangleTree &tree, Job &job)
-      : surface_(surface), topology_(topology), tree_(tree), job_(job), diagonal_(box_of(surface.points).diagonal()) {}
+  ContactFinder(const Surface &surface, const SurfaceTopology &topology, const TriangleTree &tree, bool with_itself,
+                Job &job)
+      : surface_(surface),
+        topology_(topology),
+        tree_(tree),
+        with_itself_(with_itself),
+        job_(job),
+        diagonal_(box_of(surface.points).diagonal()) {}
 
   Contacts find() const {
     const Array<Meeting> meetings = find_meetings();
     if (meetings.empty() || any_covered(meetings)) return Contacts(job_.memory);
     Array<std::uint64_t> pairs(&job_.memory);
-    for (const Meeting &m : meetings) pairs.push_back(Contacts::pair_of(component(m.a), component(m.b)));
-    return Contacts(std::move(pairs));
+    Array<Box> places(&job_.memory);
+    for (const Meeting &m : meetings) {
+      pairs.push_back(Contacts::pair_of(component(m.a), component(m.b)));
+      if (component(m.a) == component(m.b)) places.push_back(place_of(m));
+    }
+    KdTree itself(job_.memory);
+    itself.build(std::move(places), 8, job_);
+    return {std::move(pairs), std::move(itself)};
   }
 
  private:
   std::int32_t component(std::int32_t t) const { return topology_.component[std::size_t(t)]; }
+  /// And around it, as far as what touches may reach.
+  Box place_of(const Meeting &m) const {
+    const auto box = [&](std::int32_t t) { return box_of(surface_.points, surface_.triangles[std::size_t(t)]); };
+    const Box place = common(box(m.a), box(m.b));
+    return {place.low - most_reach * diagonal_, place.high + most_reach * diagonal_};
+  }
   TriangleInSpace triangle(std::int32_t t) const { return {surface_.points, surface_.triangles[std::size_t(t)]}; }
 
   /// False where they overlap; else, if they meet, it is appended to those that do.
@@ -86,7 +104,11 @@ class ContactFinder {
     return reach <= most_reach * diagonal_;
   }
 
-  /// Of different components; none where two overlap.
+  bool is_asked_for(std::int32_t a, std::int32_t b) const {
+    return b > a && (with_itself_ || component(a) != component(b));
+  }
+
+  /// None where two overlap.
   Array<Meeting> find_meetings() const {
     const std::size_t count = surface_.triangles.size();
     Array<Array<Meeting>> of_block(count / block + 1, &job_.memory);
@@ -96,7 +118,7 @@ class ContactFinder {
         if (t % 8 == 0) job_.poll(double(t) / double(count));
         const auto a = std::int32_t(t);
         tree_.for_near(a, [&](std::int32_t b) {
-          if (b > a && component(a) != component(b) && !look_at(a, b, of_block[begin / block])) overlap.report(t);
+          if (is_asked_for(a, b) && !look_at(a, b, of_block[begin / block])) overlap.report(t);
         });
       }
     });
@@ -125,24 +147,30 @@ class ContactFinder {
     return covered.any();
   }
 
-  /// Just behind it, farther than solids that touch reach into each other.
+  /// Just behind it, farther than solids that touch reach into each other, or, where it is not so thick, within it.
   bool has_material_once(std::int32_t t, double reach) const {
     const TriangleInSpace at = triangle(t);
     const Vec3 normal = area_vector(at.a, at.b, at.c);
     const double length = glm::length(normal);
-    return length > 0 && tree_.depth(at.middle() - 2 * reach / length * normal) == 1;
+    if (!(length > 0)) return false;
+    std::optional<int> depth = 0;
+    for (double far = reach; depth == 0 && far >= least_reach * diagonal_; far /= 2)
+      depth = tree_.depth(at.middle() - 2 * far / length * normal);
+    return depth == 1;
   }
 
   const Surface &surface_;
   const SurfaceTopology &topology_;
   const TriangleTree &tree_;
+  bool with_itself_;
   Job &job_;
   double diagonal_;
 };
 
 }  // namespace
 
-Contacts::Contacts(Array<std::uint64_t> pairs) : pairs_(std::move(pairs)), members_(pairs_.get_allocator()) {
+Contacts::Contacts(Array<std::uint64_t> pairs, KdTree &&itself)
+    : pairs_(std::move(pairs)), members_(pairs_.get_allocator()), itself_(std::move(itself)) {
   for (const std::uint64_t pair : pairs_)
     members_.insert(members_.end(), {std::int32_t(pair >> 32), std::int32_t(std::uint32_t(pair))});
   sort_unique(pairs_);
@@ -161,9 +189,10 @@ bool Contacts::any(std::int32_t component) const {
   return std::binary_search(members_.begin(), members_.end(), component);
 }
 
-Contacts find_contacts(const Surface &surface, const SurfaceTopology &topology, TreeOnDemand &tree, Job &job) {
-  if (topology.components < 2) return Contacts(job.memory);
-  return ContactFinder(surface, topology, tree.get(job), job).find();
+Contacts find_contacts(const Surface &surface, const SurfaceTopology &topology, TreeOnDemand &tree, bool with_itself,
+                       Job &job) {
+  if (!with_itself && topology.components < 2) return Contacts(job.memory);
+  return ContactFinder(surface, topology, tree.get(job), with_itself, job).find();
 }
 
 Array<std::int32_t> components_of_vertices(const Surface &surface, const SurfaceTopology &topology,

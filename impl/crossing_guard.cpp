@@ -105,8 +105,8 @@ bool CrossingGuard::is_passed(const Star &star) const {
   for (std::int32_t face : star.old_faces) box.add(Other(*this, face).box);
   return tree_.any_overlap(box, [&](std::int32_t face) {
     if (std::find(star.old_faces.begin(), star.old_faces.end(), face) != star.old_faces.end()) return false;
-    if (may_meet_(star.old_faces[0], face)) return false;
     const Other other(*this, face);
+    if (may_meet_(star.old_faces[0], face, box, other.box)) return false;
     return other.meets(star) || passes_over(star, box, other);
   });
 }

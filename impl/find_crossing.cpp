@@ -45,11 +45,13 @@ std::pair<std::int32_t, std::int32_t> find_crossing(const Surface &surface, Tree
   const TriangleTree &tree = tree_of_it.get(job);
   const std::size_t triangles = surface.triangles.size();
   const auto none = std::int32_t(triangles);
+  const auto box = [&](std::int32_t t) { return box_of(surface.points, surface.triangles[std::size_t(t)]); };
   const auto first_partner = [&](std::size_t t) {
     std::int32_t first = none;
     tree.for_near(std::int32_t(t), [&](std::int32_t other) {
       const auto self = std::int32_t(t);
-      if (other > self && other < first && cross(surface, self, other) && !may_meet(self, other)) first = other;
+      if (other > self && other < first && cross(surface, self, other) && !may_meet(self, other, box(self), box(other)))
+        first = other;
     });
     return first;
   };

@@ -138,6 +138,9 @@ struct Box {
   }
 };
 
+/// Of two that overlap.
+inline Box common(const Box &a, const Box &b) { return {glm::max(a.low, b.low), glm::min(a.high, b.high)}; }
+
 /// 0 inside.
 inline double distance2(const Box &box, const Vec3 &p) {
   double sum = 0;

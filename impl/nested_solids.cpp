@@ -107,8 +107,8 @@ void refuse_unsound(const MeshView &mesh, Span<const Triangle> boundary, MayTouc
   find_topology(surface.points, surface.triangles, job, topology, host_numbers(surface, index_base));
   if (may_touch == MayTouch::itself) return;
   TreeOnDemand tree(surface);
-  ContactsOnDemand contacts;
-  if (may_touch == MayTouch::other_solids)
+  ContactsOnDemand contacts(may_touch == MayTouch::in_contact);
+  if (may_touch == MayTouch::in_contact || may_touch == MayTouch::other_solids)
     refuse_overlaps(surface, topology, contacts, tree, index_base, job);
   else
     refuse_intersections(surface, topology, tree, index_base, job);

@@ -18,13 +18,13 @@ void refuse_nested_solids(const Surface &surface, const SurfaceTopology &topolog
 void refuse_intersections(const Surface &surface, const SurfaceTopology &topology, TreeOnDemand &tree,
                           std::int32_t index_base, Job &job, const MayMeet &may_meet = {});
 
-/// Likewise, but that its solids may be in contact.
+/// Likewise, but that its solids may be in contact, with themselves, too, if the contacts have that.
 void refuse_overlaps(const Surface &surface, const SurfaceTopology &topology, ContactsOnDemand &contacts,
                      TreeOnDemand &tree, std::int32_t index_base, Job &job);
 
-enum class MayTouch { itself, other_solids, nothing };
+enum class MayTouch { itself, in_contact, other_solids, nothing };
 
-/// What find_topology() says of a mesh's boundary and, unless it may touch itself, one of these.
+/// What find_topology() says of a mesh's boundary and, unless it may touch itself however much, one of these.
 void refuse_unsound(const MeshView &mesh, Span<const Triangle> boundary, MayTouch may_touch, std::int32_t index_base,
                     Job &job);
 bool is_sound(const MeshView &mesh, Span<const Triangle> boundary, MayTouch may_touch, Job &job);

@@ -264,7 +264,7 @@ Error verdict_on(const Input &input, const Options &options, const Defects &defe
     prepare_with_boundary(input, options, job, original, boundary);
     refuse_moves(original, options);
     refuse_unsound(original.view, boundary.triangles,
-                   takes_contacts(options) ? MayTouch::other_solids : MayTouch::nothing, input.index_base, job);
+                   takes_contacts(options) ? MayTouch::in_contact : MayTouch::nothing, input.index_base, job);
   } catch (const Error &error) {
     if (!blames_the_mesh(error)) throw;
     return error;

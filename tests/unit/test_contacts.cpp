@@ -31,7 +31,7 @@ class ContactsTest : public testing::Test {
   Pairs pairs(Host &host) {
     const SurfaceTopology of = topology(host.job);
     TreeOnDemand tree(surface_);
-    const Contacts contacts = find_contacts(surface_, of, tree, host.job);
+    const Contacts contacts = find_contacts(surface_, of, tree, true, host.job);
     Pairs found;
     for (std::int32_t a = 0; a < of.components; a++)
       for (std::int32_t b = a; b < of.components; b++)
@@ -100,6 +100,27 @@ TEST_F(ContactsTest, BoxesThatReachIntoEachOtherALittleAreInContact) {
   EXPECT_EQ(reaching(0.0011), Pairs());
   EXPECT_EQ(is_refused(), overlapping);
   EXPECT_EQ(reaching(0.1), Pairs());
+}
+
+/// A box that is bent to a ring, whose ends reach into each other so far.
+TEST_F(ContactsTest, ARingThatReachesIntoItselfALittleIsInContactWithItself) {
+  const auto reaching = [&](double reach) {
+    surface_ = box(host_.memory, 16);
+    transform(surface_, [&](const Vec3 &p) {
+      const double angle = -p.x * (6.283185307179586 + reach), radius = 1 + 0.5 * p.y;
+      return Vec3(radius * std::cos(angle), radius * std::sin(angle), p.z);
+    });
+    return pairs();
+  };
+  const Pairs itself = {{0, 0}};
+  EXPECT_EQ(reaching(-1e-4), Pairs());
+  EXPECT_EQ(is_refused(), apart);
+  for (const double reach : {1e-7, 1e-4, 1e-3}) {
+    EXPECT_EQ(reaching(reach), itself) << reach;
+    EXPECT_EQ(is_refused(), in_contact) << reach;
+  }
+  EXPECT_EQ(reaching(0.02), Pairs());
+  EXPECT_EQ(is_refused(), overlapping);
 }
 
 /// Their triangles touch, and do not reach into each other anywhere.
