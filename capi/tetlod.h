@@ -431,7 +431,7 @@ TETLOD_API tetlod_status tetlod_estimate_memory(tetlod_context *context, uint64_
  * Guarantees of a result: every tet has a positive volume, every face is used by one or two tets, the boundary is
  * closed, does not cross itself and has the components and the Euler characteristic of the original's, every value lies
  * within the original's range. Where edges of the solid collapse (remesh_attempts 0) the volume changes by 1 % at most,
- * and solids in contact (or in each other by 0.001 of the diagonal) may cross: each is simplified, and bounded, alone.
+ * and solids in contact (or in each other, or themselves, by 0.001 of the diagonal) may cross: each is bounded alone.
  * Boundary vertices come first, then samples (each an original vertex with its value), then Steiner points; with a
  * target ratio, boundary vertices, then all others; where no edge collapses, and none is moved, as in the original. */
 TETLOD_API tetlod_status tetlod_run(tetlod_context *context);
