@@ -391,8 +391,8 @@ enum {
 /* Flags of points, any sum of the above: 1 component, uint8, as many as points; 0: simplify freely. A flagged vertex of
  * the boundary is never collapsed or moved, nor are edges between two such (today also with KEEP alone), and fewer
  * edges than sigma asks for may go; a flagged vertex inside is always a sample, however near the boundary, which is
- * decimated less where it would cut it off. Of merged points all flags count, with the first flagged one's place,
- * value. TETLOD_ERR_ARGUMENT by tetlod_run for other bits and another count, _REMESH when there is no mesh with all. */
+ * decimated less where it would cut it off. Of merged points all flags count, and the place and value of the
+ * first flagged one. TETLOD_ERR_ARGUMENT by tetlod_run for other bits or another count, _REMESH if no mesh has all. */
 TETLOD_API tetlod_status tetlod_submit_point_flags(tetlod_context *context, const tetlod_array *flags);
 /* Forgets what was submitted (the arrays may go), keeps options and the last result. */
 TETLOD_API tetlod_status tetlod_clear(tetlod_context *context);
