@@ -87,7 +87,7 @@ enum {
   TETLOD_ERR_MESH_TOO_LARGE = 37,    /* 2^29 points or tets, or more; 2^31 / 3 boundary triangles */
   /* the remesher */
   TETLOD_ERR_REMESH = 40,          /* no sound mesh of this boundary in every way that was tried, or may be */
-  TETLOD_ERR_BACKEND_MISSING = 41, /* tetlod-remesh not found, not executable, of another version, or ruled out */
+  TETLOD_ERR_BACKEND_MISSING = 41, /* tetlod-remesh missing, not executable, other version or ruled out; Linux < 5.4 */
   /* the bound */
   TETLOD_ERR_MAX_ERROR = 42 /* TETLOD_OPT_MAX_ERROR cannot be held */
 };

@@ -49,16 +49,15 @@ class Sources {
       : options_(options), of_(of), original_(original), boundary_(boundary), job_(job) {}
 
   /// solid: of each point, or empty.
-  Array<std::int32_t> find(Array<Vec3> &&points, Span<const std::int32_t> solid) const {
+  Array<std::int32_t> find(Span<const Vec3> points, Span<const std::int32_t> solid) const {
     Array<Place> places(&job_.memory);
     locate(original_, boundary_.triangles, points, solid, options_.tet_leaf, job_, places);
     Array<std::int32_t> sources = array_of(places.size(), -1, job_);
     for_each(places.size(), job_, [&](std::size_t i) {
       const std::int32_t tet = places[i].tet >= 0 ? places[i].tet : boundary_.tet_of[std::size_t(places[i].triangle)];
       sources[i] = of_.tet_number.empty() ? tet : of_.tet_number[std::size_t(tet)];
-      if (places[i].tet < 0) points[i] = point_on_boundary(places[i]);
     });
-    if (!of_.replaced.empty()) look_among_replaced(points, solid, sources);
+    if (!of_.replaced.empty()) look_among_replaced(points, solid, places, sources);
     return sources;
   }
 
@@ -71,11 +70,14 @@ class Sources {
   }
 
   /// What takes the place of several tets has the number of one of them, or of one beside them.
-  void look_among_replaced(Span<const Vec3> points, Span<const std::int32_t> solid,
+  void look_among_replaced(Span<const Vec3> points, Span<const std::int32_t> solid, Span<const Place> places,
                            Array<std::int32_t> &sources) const {
+    Array<Vec3> inside(points.begin(), points.end(), &job_.memory);
+    for (std::size_t i = 0; i < inside.size(); i++)
+      if (places[i].tet < 0) inside[i] = point_on_boundary(places[i]);
     MeshView replaced = original_;
     replaced.tets = of_.replaced;
-    const Array<std::int32_t> tets = find_tets(replaced, points, solid, options_.tet_leaf, job_);
+    const Array<std::int32_t> tets = find_tets(replaced, inside, solid, options_.tet_leaf, job_);
     for (std::size_t i = 0; i < tets.size(); i++)
       if (tets[i] >= 0) sources[i] = of_.replaced_number[std::size_t(tets[i])];
   }

@@ -193,11 +193,12 @@ Box scale_extreme_coordinates(const Box &box, Job &job, Original &original) {
 /// In an array of its own.
 void move_points(const Moves &moves, Job &job, Original &original) {
   if (moves.empty()) return;
-  Array<Vec3> points = array_of(original.view.points.size(), Vec3(0), job);
-  for_each(points.size(), job, [&](std::size_t v) { points[v] = original.view.points[v]; });
-  for (const Move &move : moves) points[std::size_t(move.vertex)] = move.to;
-  original.points = std::move(points);
-  original.view.points = original.points;
+  if (original.points.empty()) {
+    grow(original.points, original.view.points.size(), job);
+    for_each(original.points.size(), job, [&](std::size_t v) { original.points[v] = original.view.points[v]; });
+    original.view.points = original.points;
+  }
+  for (const Move &move : moves) original.points[std::size_t(move.vertex)] = move.to;
 }
 
 void take_cracks(Moves &&opened, Job &job, Original &original) {

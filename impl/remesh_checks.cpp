@@ -167,11 +167,6 @@ Volume enclosed_volume(Span<const Vec3> points, Span<const Triangle> triangles) 
   return volume;
 }
 
-bool fills(double volume, const Volume &enclosed) {
-  constexpr double tolerance = 1e-9;
-  return std::abs(volume - enclosed.value) <= tolerance * enclosed.value + enclosed.uncertainty;
-}
-
 SurfaceFacts check_surface(const Surface &surface, Job &job) {
   check_size(surface);
   check_finite(surface);

@@ -26,7 +26,5 @@ struct Volume {
   double uncertainty = 0;
 };
 Volume enclosed_volume(Span<const Vec3> points, Span<const Triangle> triangles);
-/// Whether so much is what a boundary encloses, but for rounding.
-bool fills(double volume, const Volume &enclosed);
 
 }  // namespace tetlod

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "face_sweep.hpp"
 #include "geometry.hpp"
 #include "random_place.hpp"
-#include "remesh_checks.hpp"
 #include "star_lists.hpp"
 #include "status.hpp"
+#include "tet_checks.hpp"
 
 namespace tetlod {
 
@@ -45,13 +44,6 @@ bool are_oriented(Span<const Triangle> triangles, Job &job) {
   std::uint64_t sum = 0;
   for (const std::uint64_t of_part : sums) sum += of_part;
   return sum == 0;
-}
-
-/// They fill what the boundary encloses, and no more: none inside is turned over.
-bool are_side_by_side(const MeshView &mesh, Span<const Triangle> boundary, Job &job) {
-  const auto add = [&](double &sum, std::size_t t) { sum += std::abs(six_volume(mesh.points, mesh.tets[t])); };
-  const Array<double> sums = parts_of(mesh.tets.size(), 0.0, job, add);
-  return fills(std::accumulate(sums.begin(), sums.end(), 0.0) / 6, enclosed_volume(mesh.points, boundary));
 }
 
 /// Of the face's vertices, as they are seen from outside a positive tet, in ascending order.
@@ -273,7 +265,10 @@ bool are_short(const Moves &moves, const Original &original) {
 Moves find_moves(const Original &original, const Boundary &boundary, Job &job) {
   const Moves none(&job.memory);
   const bool agree = are_oriented(boundary.triangles, job);
-  if (agree && are_side_by_side(original.view, boundary.triangles, job)) return none;
+  const auto are_side_by_side = [&] {
+    return check_volume(original.view.points, original.view.tets, boundary.triangles, 0.9, job).empty();
+  };
+  if (agree && are_side_by_side()) return none;
   Array<Tet> upright = Uprights(original.view, job).find();
   if (upright.empty()) return none;
   Untangling untangling(original, boundary, std::move(upright), agree ? 0 : inertia, job);
