@@ -17,14 +17,6 @@ bool any_of_association(const Input &input, Association association) {
                      [&](const SubmittedField &field) { return field.association == association; });
 }
 
-/// The result's points in the original's scale.
-Span<const Vec3> scaled_points(const Original &original, const TetMesh &mesh, Array<Vec3> &copy) {
-  if (original.exponent == 0) return mesh.points;
-  copy.reserve(mesh.points.size());
-  for (const Vec3 &p : mesh.points) copy.push_back(times_power_of_two(p, -original.exponent));
-  return copy;
-}
-
 Array<Vec3> find_centroids(Span<const Vec3> points, Span<const Tet> tets, Job &job) {
   Array<Vec3> centroids = array_of(tets.size(), Vec3(0), job);
   for_each(tets.size(), job, [&](std::size_t t) {
@@ -114,7 +106,7 @@ void carry_fields(const Input &input, const Options &options, const Original &or
   MeshView view = original.view;
   view.solid = solids;
   Array<Vec3> copy(&job.memory);
-  const Span<const Vec3> points = scaled_points(original, result.mesh, copy);
+  const Span<const Vec3> points = original.in_scale(result.mesh.points, copy);
   Array<std::int32_t> sources(&job.memory);
   if (any_of_association(input, Association::point))
     find_stencils(view, boundary.triangles, points, result.mesh.solid, options.tet_leaf, job, result.stencil);
@@ -169,7 +161,7 @@ void find_stencil(const Input &input, const Options &options, Prepared &prepared
   if (!result.mesh.solid.empty()) view.solid = of.solids(job);
   Array<Vec3> copy(&job.memory);
   Stencil stencil(job.memory);
-  find_stencils(view, of.boundary.triangles, scaled_points(of.original, result.mesh, copy), result.mesh.solid,
+  find_stencils(view, of.boundary.triangles, of.original.in_scale(result.mesh.points, copy), result.mesh.solid,
                 options.tet_leaf, job, stencil);
   result.stencil = std::move(stencil);
 }

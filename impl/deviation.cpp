@@ -1,7 +1,10 @@
 #include "deviation.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
+
+#include "status.hpp"
 
 namespace tetlod {
 
@@ -102,6 +105,9 @@ DeviationLimit::DeviationLimit(const Surface &original, const TriangleTree &near
       first_(original.triangles.size(), -1, &job.memory),
       next_(&job.memory) {
   const std::size_t most = count_samples(original);
+  if (most > std::size_t(std::numeric_limits<std::int32_t>::max()))
+    fail(Status::mesh_too_large, "%zu boundary triangles are too many to hold max-deviation",
+         original.triangles.size());
   samples_.reserve(most);
   triangle_.reserve(most);
   next_.reserve(most);

@@ -138,15 +138,17 @@ void make_surface(const MeshView &mesh, Span<const Triangle> triangles, Job &job
   Array<std::int32_t> number(mesh.points.size(), -1, &job.memory);
   surface.fields = mesh.fields;
   surface.triangles.reserve(triangles.size());
-  for (const Triangle &t : triangles) {
+  for (std::size_t i = 0; i < triangles.size(); i++) {
+    job.poll_at(i, 0);
+    const Triangle &t = triangles[i];
     Triangle renumbered;
     for (std::size_t k = 0; k < 3; k++) {
       std::int32_t &n = number[std::size_t(t[k])];
       if (n < 0) {
         n = std::int32_t(surface.points.size());
         surface.points.push_back(mesh.points[std::size_t(t[k])]);
-        for (std::size_t i = 0; i < mesh.fields; i++)
-          surface.scalars.push_back(mesh.scalars[std::size_t(t[k]) * mesh.fields + i]);
+        for (std::size_t f = 0; f < mesh.fields; f++)
+          surface.scalars.push_back(mesh.scalars[std::size_t(t[k]) * mesh.fields + f]);
         surface.origin.push_back(t[k]);
       }
       renumbered[k] = n;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "geometry.hpp"
 #include "kd_tree.hpp"
@@ -32,8 +33,9 @@ double value_in(Span<const double> scalars, std::size_t fields, const Tet &t, co
 /// The result's piecewise linear field.
 class Field {
  public:
-  Field(const TetMesh &mesh, Job &job) : mesh_(mesh), tree_(job.memory) {
-    const auto box = [&](std::size_t t) { return with_rounding(box_of<4>(mesh.points, mesh.tets[t])); };
+  /// points: the mesh's, in another scale perhaps.
+  Field(const TetMesh &mesh, Span<const Vec3> points, Job &job) : mesh_(mesh), points_(points), tree_(job.memory) {
+    const auto box = [&](std::size_t t) { return with_rounding(box_of<4>(points, mesh.tets[t])); };
     tree_.build(boxes_of(mesh.tets.size(), job, box), 4, job);
   }
 
@@ -45,9 +47,8 @@ class Field {
       const Tet &t = mesh_.tets[std::size_t(item)];
       if (!mesh_.solid.empty() && !may_be_one(solid, solid_of(mesh_.solid, t))) return false;
       double w[4];
-      if (!barycentric(p, mesh_.points[std::size_t(t[0])], mesh_.points[std::size_t(t[1])],
-                       mesh_.points[std::size_t(t[2])], mesh_.points[std::size_t(t[3])], w))
-        return false;
+      const auto at = [&](std::size_t k) -> const Vec3 & { return points_[std::size_t(t[k])]; };
+      if (!barycentric(p, at(0), at(1), at(2), at(3), w)) return false;
       const double least = std::min({w[0], w[1], w[2], w[3]});
       if (least > best) {
         best = least;
@@ -61,6 +62,7 @@ class Field {
 
  private:
   const TetMesh &mesh_;
+  Span<const Vec3> points_;
   KdTree tree_;
 };
 
@@ -116,9 +118,8 @@ void add_sample(const MeshView &mesh, std::size_t tet, std::uint64_t key, const 
 
 /// values(v, visit): visits those that were submitted for vertex v.
 template <class ValuesOf>
-FieldError measure(const MeshView &original, const ValuesOf &values, double range, const TetMesh &result,
+FieldError measure(const MeshView &original, const ValuesOf &values, double range, const Field &field,
                    int samples_per_tet, std::uint64_t seed, Job &job) {
-  const Field field(result, job);
   const double unit = range > 0 ? std::min(range, std::numeric_limits<double>::max()) : 1;
   Array<std::uint8_t> room(&job.memory);
   const Span<const std::uint8_t> used = used_points(original, job, room);
@@ -141,35 +142,28 @@ FieldError measure(const MeshView &original, const ValuesOf &values, double rang
 FieldError measure_error(const MeshView &original, double range, const TetMesh &result, int samples_per_tet,
                          std::uint64_t seed, Job &job) {
   const auto value_of = [&](std::size_t v, const auto &visit) { visit(original.scalars[v * original.fields]); };
-  return measure(original, value_of, range, result, samples_per_tet, seed, job);
+  return measure(original, value_of, range, Field(result, result.points, job), samples_per_tet, seed, job);
 }
 
-FieldError measure_error(const Input &input, const Options &options, const TetMesh &result, int samples_per_tet,
+FieldError measure_error(const Input &input, const Options &options, const Result &result, int samples_per_tet,
                          Job &job) {
   Original original(job.memory);
   {
     Boundary boundary(job.memory);
-    prepare_with_boundary(input, options, job, original, boundary);
+    prepare_with_boundary(input, options, job, original, boundary, &result.moves);
   }
   job.enter(Stage::values);
   Array<std::int32_t> solid(&job.memory);
-  if (!result.solid.empty()) solid = solids_of_vertices(original.view, job);
+  if (!result.mesh.solid.empty()) solid = solids_of_vertices(original.view, job);
   original.view.solid = solid;
   const auto values_of = [&](std::size_t v, const auto &visit) {
     if (!original.has_merged(v)) return visit(original.view.scalars[v * original.view.fields]);
     original.for_each_merged(v, [&](std::size_t u) { visit(input.scalars.real(std::int64_t(u), 0)); });
   };
-  const auto measure_of = [&](const TetMesh &mesh) {
-    return measure(original.view, values_of, original.scalar_max - original.scalar_min, mesh, samples_per_tet,
-                   std::uint64_t(options.seed), job);
-  };
-  if (original.exponent == 0) return measure_of(result);
-  TetMesh scaled(job.memory);
-  scaled.scalars = result.scalars;
-  scaled.tets = result.tets;
-  scaled.solid = result.solid;
-  for (const Vec3 &p : result.points) scaled.points.push_back(times_power_of_two(p, -original.exponent));
-  return measure_of(scaled);
+  Array<Vec3> copy(&job.memory);
+  const Field field(result.mesh, original.in_scale(result.mesh.points, copy), job);
+  return measure(original.view, values_of, original.scalar_max - original.scalar_min, field, samples_per_tet,
+                 std::uint64_t(options.seed), job);
 }
 
 void histogram(Span<const double> values, double low, double high, Span<std::int64_t> counts) {

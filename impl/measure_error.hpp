@@ -20,8 +20,8 @@ struct FieldError {
 FieldError measure_error(const MeshView &original, double range, const TetMesh &result, int samples_per_tet,
                          std::uint64_t seed, Job &job);
 
-/// The same for the caller's arrays; the input is read again, as run() reads it.
-FieldError measure_error(const Input &input, const Options &options, const TetMesh &result, int samples_per_tet,
+/// The same for the caller's arrays, without their flags; the input is read again, as the run that made the result did.
+FieldError measure_error(const Input &input, const Options &options, const Result &result, int samples_per_tet,
                          Job &job);
 
 /// counts[b] += the values in the b-th of `bins` equal parts of [low, high]; high itself is in the last, what is

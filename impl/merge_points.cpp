@@ -54,35 +54,55 @@ std::int32_t find_equal(const PointTable &table, Span<const Vec3> points, std::i
   return found;
 }
 
-double largest_coordinate(Span<const Vec3> points, Span<const std::uint8_t> used, Job &job) {
-  double largest = 0;
+Box box_of_used(Span<const Vec3> points, Span<const std::uint8_t> used, Job &job) {
+  Box box;
   for (std::size_t v = 0; v < points.size(); v++) {
     job.poll_at(v, 0);
-    for (int k = 0; k < 3 && used[v]; k++) largest = std::max(largest, std::abs(points[v][k]));
+    if (used[v]) box.add(points[v]);
   }
-  return largest;
+  return box;
 }
 
-/// looked_at: how many others were.
-std::int32_t find_near(const PointTable &table, Span<const Vec3> points, std::int32_t v, double tolerance, double size,
-                       std::size_t &looked_at) {
-  std::int32_t found = v;
-  const Vec3 &p = points[std::size_t(v)];
-  const Vec3 low = glm::floor((p - tolerance) / size), high = glm::floor((p + tolerance) / size);
-  for (double x = low.x; x <= high.x; x++)
-    for (double y = low.y; y <= high.y; y++)
-      for (double z = low.z; z <= high.z; z++)
-        table.for_each(Vec3(x, y, z), [&](std::int32_t other) {
-          looked_at++;
-          if (other < found && length2(points[std::size_t(other)] - p) <= tolerance * tolerance) found = other;
-        });
-  return found;
-}
+/// Points by the cells of a grid, from its low corner.
+class PointGrid {
+ public:
+  PointGrid(Span<const Vec3> points, const Vec3 &low, double size, Job &job)
+      : points_(points), low_(low), size_(size), table_(points.size(), job) {}
 
-/// find(v): the lowest point that v is merged into; key(v): in the table.
-template <class Find, class Key>
-std::int64_t merge(PointTable &table, Span<const std::uint8_t> used, Job &job, Array<std::int32_t> &representative,
-                   const Find &find, const Key &key) {
+  void insert(std::int32_t v) { table_.insert(cell(points_[std::size_t(v)]), v); }
+
+  /// The lowest, v itself included.
+  std::int32_t find_near(std::int32_t v, double tolerance) {
+    std::int32_t found = v;
+    const Vec3 &p = points_[std::size_t(v)];
+    const Vec3 first = cell(p - tolerance), last = cell(p + tolerance);
+    for (double x = first.x; x <= last.x; x++)
+      for (double y = first.y; y <= last.y; y++)
+        for (double z = first.z; z <= last.z; z++)
+          table_.for_each(Vec3(x, y, z), [&](std::int32_t other) {
+            looked_at_++;
+            if (other < found && length2(points_[std::size_t(other)] - p) <= tolerance * tolerance) found = other;
+          });
+    return found;
+  }
+  /// How many others, in all.
+  std::size_t looked_at() const { return looked_at_; }
+
+ private:
+  /// Rounding keeps the order of points, so that none is missed.
+  Vec3 cell(const Vec3 &p) const { return glm::floor((p - low_) / size_); }
+
+  Span<const Vec3> points_;
+  Vec3 low_;
+  double size_;
+  PointTable table_;
+  std::size_t looked_at_ = 0;
+};
+
+/// find(v): the lowest point that v is merged into; insert(v): others may be into v.
+template <class Find, class Insert>
+std::int64_t merge(Span<const std::uint8_t> used, Job &job, Array<std::int32_t> &representative, const Find &find,
+                   const Insert &insert) {
   std::int64_t merged = 0;
   representative.resize(used.size());
   for (std::size_t i = 0; i < used.size(); i++) {
@@ -93,41 +113,41 @@ std::int64_t merge(PointTable &table, Span<const std::uint8_t> used, Job &job, A
     const std::int32_t found = find(v);
     representative[i] = found;
     merged += found != v;
-    if (found == v) table.insert(key(v), v);
+    if (found == v) insert(v);
   }
   return merged;
+}
+
+std::int64_t merge_equal(Span<const Vec3> points, Span<const std::uint8_t> used, Job &job,
+                         Array<std::int32_t> &representative) {
+  PointTable table(points.size(), job);
+  const auto find = [&](std::int32_t v) { return find_equal(table, points, v); };
+  return merge(used, job, representative, find, [&](std::int32_t v) { table.insert(points[std::size_t(v)], v); });
 }
 
 }  // namespace
 
 std::int64_t merge_points(Span<const Vec3> points, Span<const std::uint8_t> used, double tolerance, Job &job,
                           Array<std::int32_t> &representative) {
-  constexpr double finest = 1e-12;  // of the largest coordinate: others have no cell
-  PointTable table(points.size(), job);
-  const auto point = [&](std::int32_t v) { return points[std::size_t(v)]; };
-  if (!(tolerance > 0))
-    return merge(
-        table, used, job, representative, [&](std::int32_t v) { return find_equal(table, points, v); }, point);
-  const double size = std::max(tolerance, finest * largest_coordinate(points, used, job));
-  std::size_t looked_at = 0;
-  const auto find = [&](std::int32_t v) { return find_near(table, points, v, tolerance, size, looked_at); };
-  return merge(table, used, job, representative, find, [&](std::int32_t v) { return glm::floor(point(v) / size); });
+  constexpr double finest = 1e-12;  // of the box: others have no cell
+  if (!(tolerance > 0)) return merge_equal(points, used, job, representative);
+  const Box box = box_of_used(points, used, job);
+  PointGrid grid(points, box.low, std::max(tolerance, finest * box.diagonal()), job);
+  const auto find = [&](std::int32_t v) { return grid.find_near(v, tolerance); };
+  return merge(used, job, representative, find, [&](std::int32_t v) { grid.insert(v); });
 }
 
 std::int64_t merge_rounded(Span<const Vec3> points, Span<const std::uint8_t> used, double rounding, Job &job,
                            Array<std::int32_t> &representative) {
   constexpr double cell = 64;                // so that most points are farther than that from other cells
   constexpr std::size_t most_looked_at = 8;  // for each point
-  PointTable table(points.size(), job);
-  std::size_t looked_at = 0;
+  PointGrid grid(points, Vec3(0), cell * rounding, job);
   bool are_crowded = false;
-  const double size = cell * rounding;
   const auto find = [&](std::int32_t v) {
-    if (looked_at > most_looked_at * (std::size_t(v) + 1024)) are_crowded = true;
-    return are_crowded ? v : find_near(table, points, v, rounding, size, looked_at);
+    if (grid.looked_at() > most_looked_at * (std::size_t(v) + 1024)) are_crowded = true;
+    return are_crowded ? v : grid.find_near(v, rounding);
   };
-  const auto cell_of = [&](std::int32_t v) { return glm::floor(points[std::size_t(v)] / size); };
-  const std::int64_t merged = merge(table, used, job, representative, find, cell_of);
+  const std::int64_t merged = merge(used, job, representative, find, [&](std::int32_t v) { grid.insert(v); });
   return are_crowded ? -1 : merged;
 }
 

@@ -23,11 +23,13 @@ struct AtPlace {
   Spread spread() const { return {std::max(high - taken(), taken() - low), lowest, highest}; }
 };
 
-AtPlace values_at(std::size_t v, std::size_t field, const Input &input, const Original &original) {
+AtPlace values_at(std::size_t v, std::size_t field, const Original &original) {
   AtPlace values;
+  const Array<FlaggedPoint> &flagged = original.moves.flagged;
   original.for_each_merged(v, [&](std::size_t u) {
-    const bool flag = input.flags.present && input.flags.at<std::uint8_t>(std::int64_t(u), 0) != 0;
-    values.add(original.view.scalars[u * original.view.fields + field], std::int32_t(u), flag);
+    const FlaggedPoint point{std::int32_t(v), std::int32_t(u)};
+    const bool is_flagged = std::binary_search(flagged.begin(), flagged.end(), point);
+    values.add(original.view.scalars[u * original.view.fields + field], point.point, is_flagged);
   });
   return values;
 }
@@ -54,6 +56,29 @@ Array<std::int32_t> chain_merged(Span<const std::int32_t> representative, Job &j
   return next;
 }
 
+Array<FlaggedPoint> find_flagged(const Input &input, Job &job, const Original &original) {
+  Array<FlaggedPoint> flagged(&job.memory);
+  if (!input.flags.present) return flagged;
+  for (std::size_t v = 0; v < original.next_merged.size(); v++) {
+    job.poll_at(v, 0.9);
+    if (!original.flags[v] || original.next_merged[v] < 0) continue;
+    for (auto u = std::int32_t(v); u >= 0; u = original.next_merged[std::size_t(u)])
+      if (input.flags.at<std::uint8_t>(u, 0)) flagged.push_back({std::int32_t(v), u});
+  }
+  return flagged;
+}
+
+Moves moves_to_flagged(Span<const FlaggedPoint> flagged, Span<const Vec3> points, Memory &memory) {
+  Moves moves(&memory);
+  std::int32_t last = -1;
+  for (const auto &[vertex, point] : flagged) {
+    const Vec3 &place = points[std::size_t(point)];
+    if (vertex != last && place != points[std::size_t(vertex)]) moves.push_back({vertex, place});
+    last = vertex;
+  }
+  return moves;
+}
+
 void find_points_that_count(const Input &input, Job &job, Original &original) {
   original.counts.assign(original.next_merged.size(), 0);
   for (std::size_t i = 0; i < original.view.tets.size(); i++) {
@@ -63,14 +88,14 @@ void find_points_that_count(const Input &input, Job &job, Original &original) {
   }
 }
 
-void take_merged_values(const Input &input, Job &job, Original &original) {
+void take_merged_values(Job &job, Original &original) {
   original.spread = {};
   original.spread_range = {};
   const std::size_t fields = original.view.fields;
   for (std::size_t v = 0; v < original.next_merged.size(); v++) {
     job.poll_at(v, 0.9);
     for (std::size_t k = 0; k < fields && original.has_merged(v); k++) {
-      const AtPlace values = values_at(v, k, input, original);
+      const AtPlace values = values_at(v, k, original);
       const double now = original.view.scalars[v * fields + k];
       if (values.low == now && values.high == now) continue;
       own_values(job, original);

@@ -139,14 +139,23 @@ struct Move {
 };
 using Moves = Array<Move>;
 
+/// One of several points that became the vertex, which the host flags.
+struct FlaggedPoint {
+  std::int32_t vertex, point;
+  bool operator==(const FlaggedPoint &other) const { return vertex == other.vertex && point == other.point; }
+  bool operator<(const FlaggedPoint &other) const {
+    return vertex != other.vertex ? vertex < other.vertex : point < other.point;
+  }
+};
+
 /// One step after another.
 struct PointMoves {
-  explicit PointMoves(Memory &memory) : placed(&memory), opened(&memory), upright(&memory) {}
-  Moves placed;   ///< points that stand for others, of which the host flags one: to the place of the first of these
-  Moves opened;   ///< points of cracks that a field jumps across: their sides lie apart
-  Moves upright;  ///< where tets were turned over: find_moves()
+  explicit PointMoves(Memory &memory) : flagged(&memory), opened(&memory), upright(&memory) {}
+  Array<FlaggedPoint> flagged;  ///< ascending: the place of each vertex's first one counts, and its values
+  Moves opened;                 ///< points of cracks that a field jumps across: their sides lie apart
+  Moves upright;                ///< where tets were turned over: find_moves()
   bool operator==(const PointMoves &o) const {
-    return placed == o.placed && opened == o.opened && upright == o.upright;
+    return flagged == o.flagged && opened == o.opened && upright == o.upright;
   }
 };
 

@@ -222,21 +222,6 @@ void read_flags(const Input &input, Span<const std::int32_t> representative, Job
   }
 }
 
-/// As its value does, the place counts of the first of such points that the host flags.
-Moves find_places_of_flagged(const Input &input, Span<const std::int32_t> representative, Job &job,
-                             const Original &original) {
-  Moves moves(&job.memory);
-  if (original.flags.empty() || original.merged_points == 0) return moves;
-  Array<std::int32_t> first(representative.size(), -1, &job.memory);
-  for (std::size_t v = representative.size(); v-- > 0;)
-    if (input.flags.at<std::uint8_t>(std::int64_t(v), 0)) first[std::size_t(representative[v])] = std::int32_t(v);
-  const Span<const Vec3> points = original.view.points;
-  for (std::size_t v = 0; v < first.size(); v++)
-    if (first[v] >= 0 && points[std::size_t(first[v])] != points[v])
-      moves.push_back({std::int32_t(v), points[std::size_t(first[v])]});
-  return moves;
-}
-
 bool any_repeated_vertex(Span<const Tet> tets, Job &job) {
   FirstCulprit culprit;
   job.parallel.for_blocks(tets.size(), block, [&](std::size_t begin, std::size_t end) {
@@ -336,9 +321,9 @@ void prepare_original(const Input &input, const Options &options, Job &job, Orig
   original.torn = std::move(merged.torn);
   take_cracks(std::move(merged.cracks.opened), job, original);
   read_flags(input, representative, job, original);
-  original.moves.placed =
-      made ? Moves(made->placed, &job.memory) : find_places_of_flagged(input, representative, job, original);
-  move_points(original.moves.placed, job, original);
+  Array<FlaggedPoint> &flagged = original.moves.flagged;
+  flagged = made && !input.flags.present ? made->flagged : find_flagged(input, job, original);
+  move_points(moves_to_flagged(flagged, original.view.points, job.memory), job, original);
   if (original.merged_points || original.nonfinite_points || any_repeated_vertex(original.view.tets, job))
     drop_and_rename(representative, job, original);
   if (original.view.tets.empty())
@@ -354,7 +339,7 @@ void prepare_boundary(const Input &input, const Options &options, Job &job, Orig
   if (are_dropped) drop_excluded(job, boundary, original);
   if (are_merged) {  // values of tets that were dropped do not count
     find_points_that_count(input, job, original);
-    take_merged_values(input, job, original);
+    take_merged_values(job, original);
   }
   const bool repairs = options.on_overlap == policy_repair;
   if (repairs) make_moves(made ? made->upright : find_moves(original, boundary, job), job, boundary, original);
@@ -386,7 +371,7 @@ bool renew_values(const Input &input, Job &job, Original &original) {
     job.poll_at(v, 0.5);
     if (original.used[v] && first_nonfinite(original.view, v) < original.view.fields) return false;
   }
-  take_merged_values(input, job, original);
+  take_merged_values(job, original);
   measure_ranges(input, job, original);
   return true;
 }

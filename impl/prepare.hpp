@@ -5,6 +5,7 @@
 #include <string>
 
 #include "extract_boundary.hpp"
+#include "geometry.hpp"
 #include "host_numbers.hpp"
 #include "job.hpp"
 #include "mesh.hpp"
@@ -68,6 +69,13 @@ struct Original {
   std::size_t unequal_field = 0;
   Box box;  ///< of the vertices that tets of the view have
 
+  /// Points of a result in the view's scale.
+  Span<const Vec3> in_scale(Span<const Vec3> points, Array<Vec3> &copy) const {
+    if (exponent == 0) return points;
+    copy.reserve(points.size());
+    for (const Vec3 &p : points) copy.push_back(times_power_of_two(p, -exponent));
+    return copy;
+  }
   HostNumbers numbers() const { return {index_base, {}, tet_number}; }
 
   bool has_merged(std::size_t v) const { return !next_merged.empty() && view.used[v] && next_merged[v] >= 0; }

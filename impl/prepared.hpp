@@ -45,7 +45,7 @@ class Prepared {
   /// True: original (with the input's values) and boundary are those of the input. False: both are empty, to be filled;
   /// then say complete(). mesh: fingerprint_of_mesh(input).
   bool renew(const Fingerprint &mesh, const Input &input, const Options &options, Job &job);
-  /// The same, but if false, mesh and boundary stay what they are.
+  /// The same, but if false, mesh and boundary stay what they are, but for values.
   bool holds(const Fingerprint &mesh, const Input &input, const Options &options, Job &job);
   void complete() { filled_ = true; }
   void forget(Memory &memory) { *this = Prepared(memory); }

@@ -33,7 +33,7 @@ enum class Ladder { whole, first_rung };
 
 /// Solids are remeshed each for itself, as many at once as the job has threads; small ones together, up to
 /// `points_at_once` points and samples. Throws Status::remesh when every attempt of the ladder failed for one of them
-/// (the message has what each said), and what Worker::tetrahedralize throws. The surface must be closed and oriented;
+/// (the message has what each said), and what Worker::begin() throws. The surface must be closed and oriented;
 /// it may touch itself at vertices and edges. meanwhile(), if there is one, is called once, when processes have begun.
 void remesh(const Surface &surface, Span<const Vec3> samples, Worker &worker, Job &job, RemeshResult &result,
             std::size_t points_at_once = usual_points_at_once, const std::function<void()> &meanwhile = {},

@@ -9,11 +9,7 @@ namespace tetlod {
 
 namespace {
 
-int magnitude_of(const Box &box) {
-  double largest = 0;
-  for (int k = 0; k < 3; k++) largest = std::max({largest, std::abs(box.low[k]), std::abs(box.high[k])});
-  return std::ilogb(largest) + 1;
-}
+int magnitude_of(const Box &box) { return std::ilogb(box.largest_coordinate()) + 1; }
 
 /// What [low, high] can be shifted by without rounding.
 double exact_shift(double low, double high) {

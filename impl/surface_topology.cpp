@@ -42,13 +42,17 @@ class TopologyFinder {
   void sort_half_edges() {
     begin_.assign(points_.size() + 1, 0);
     const auto count = std::int32_t(3 * triangles_.size());
-    for (std::int32_t h = 0; h < count; h++) begin_[std::size_t(low_end(h)) + 1]++;
+    for (std::int32_t h = 0; h < count; h++) {
+      job_.poll_at(std::size_t(h), 0);
+      begin_[std::size_t(low_end(h)) + 1]++;
+    }
     for (std::size_t v = 0; v < points_.size(); v++) begin_[v + 1] += begin_[v];
     sorted_.resize(std::size_t(count));
     Array<std::int32_t> place(begin_, &job_.memory);
-    job_.poll(0);
-    for (std::int32_t h = 0; h < count; h++)
+    for (std::int32_t h = 0; h < count; h++) {
+      job_.poll_at(std::size_t(h), 0);
       sorted_[std::size_t(place[std::size_t(low_end(h))]++)] = {std::max(from(h), to(h)), h};
+    }
     for_each(points_.size(), job_, [&](std::size_t v) {
       std::sort(sorted_.begin() + begin_[v], sorted_.begin() + begin_[v + 1],
                 [](const HalfEdge &a, const HalfEdge &b) { return a.high != b.high ? a.high < b.high : a.id < b.id; });

@@ -8,6 +8,7 @@
 #include "face_sweep.hpp"
 #include "field_jumps.hpp"
 #include "folded_back.hpp"
+#include "torn_sets.hpp"
 
 namespace tetlod {
 
@@ -40,14 +41,18 @@ class TouchingParts {
   bool is_apart(std::size_t v) { return parts_.lowest(std::int32_t(v)) != parts_.lowest(representative_[v]); }
 
   bool any_apart() {
-    for (std::size_t v = 0; v < representative_.size(); v++)
+    for (std::size_t v = 0; v < representative_.size(); v++) {
+      job_.poll_at(v, 0.9);
       if (is_apart(v)) return true;
+    }
     return false;
   }
 
   /// By place, without those that are none; numbered as they are.
   NumberedTets tets_by_place() const {
     NumberedTets tets({mesh_.points, {}, {}}, {}, job_.memory);
+    tets.tets.reserve(mesh_.tets.size());
+    tets.number.reserve(mesh_.tets.size());
     for (std::size_t t = 0; t < mesh_.tets.size(); t++) {
       job_.poll_at(t, 0.9);
       Tet places = mesh_.tets[t];
@@ -69,19 +74,8 @@ class TouchingParts {
   }
 
   void join_across_faces(const NumberedTets &tets) {
-    for_neighbours(tets, [&](const Tet &t, const Tet &u) {
-      if (parts_.lowest(t[0]) != parts_.lowest(u[0]) && !would_join_torn(t, u)) parts_.join(t[0], u[0]);
-    });
-  }
-
-  /// Parts that stay apart, these or others that are one with them.
-  bool would_join_torn(const Tet &t, const Tet &u) {
-    const Torn &torn = kept_.torn;
-    if (std::binary_search(torn.begin(), torn.end(), pair_of(t, u))) return true;
-    const auto sides = std::minmax({parts_.lowest(t[0]), parts_.lowest(u[0])});
-    return std::any_of(torn.begin(), torn.end(), [&](const auto &pair) {
-      return std::minmax({parts_.lowest(pair.first), parts_.lowest(pair.second)}) == sides;
-    });
+    TornSets sets(kept_.torn, parts_, job_.memory);
+    for_neighbours(tets, [&](const Tet &t, const Tet &u) { sets.join(t[0], u[0]); });
   }
 
   /// Which parts, as submitted, a field jumps between; but not small ones, as the cells of a method that lets it jump.
@@ -130,8 +124,14 @@ class TouchingParts {
   void number_parts(const NumberedTets &tets) {
     count_.resize(representative_.size(), 0);
     part_.resize(representative_.size());
-    for (std::size_t v = 0; v < part_.size(); v++) part_[v] = parts_.lowest(std::int32_t(v));
-    for (const std::int32_t t : tets.number) count_[std::size_t(part(mesh_.tets[std::size_t(t)]))]++;
+    for (std::size_t v = 0; v < part_.size(); v++) {
+      job_.poll_at(v, 0.9);
+      part_[v] = parts_.lowest(std::int32_t(v));
+    }
+    for (std::size_t i = 0; i < tets.number.size(); i++) {
+      job_.poll_at(i, 0.9);
+      count_[std::size_t(part(mesh_.tets[std::size_t(tets.number[i])]))]++;
+    }
   }
 
   bool may_be_torn(const Tet &t, const Tet &u) const {
@@ -154,8 +154,10 @@ class TouchingParts {
   /// Where several parts are at one place, the lowest point of each stands for that part's.
   void split_places() {
     Array<std::uint8_t> shared(representative_.size(), 0, &job_.memory);
-    for (std::size_t v = 0; v < shared.size(); v++)
+    for (std::size_t v = 0; v < shared.size(); v++) {
+      job_.poll_at(v, 0.9);
       if (is_apart(v)) shared[std::size_t(representative_[v])] = 1;
+    }
     struct OfPlace {
       std::int32_t place, part, point;
       bool operator<(const OfPlace &other) const {

@@ -35,7 +35,7 @@ class WorkerProcess {
   /// Hands over the call; waits for the greeting of a process that has to be started. What the request points to has to
   /// live until the end of the call.
   void begin(const TetgenRequest &request, double seconds, Job &job) { begin(request, seconds, false, job); }
-  /// True when the call is over, with what Worker::tetrahedralize says of the reply. Polls the job, does not wait.
+  /// True when the call is over, with what Worker::finish_any() says of the reply. Polls the job, does not wait.
   /// Throws Status::memory when two processes were killed, for what came of another attempt would depend on that.
   bool finish(Job &job, TetgenReply &reply);
   /// What says that finish() may have something to do.

@@ -5,6 +5,8 @@
 
 #include <sstream>
 
+#include "report.hpp"
+
 namespace cli {
 namespace {
 
@@ -23,13 +25,6 @@ void note_unused_options(vtkTetlodSimplify &filter, const Arguments &arguments, 
   if (!has_size && is_given(arguments, "effort")) notes.push_back("--effort has no meaning without " + size);
   if (!has_size && arguments.preset.value_or(TETLOD_PRESET_PAPER) != TETLOD_PRESET_PAPER)
     notes.push_back("--target-ratio 0 makes of any preset the paper's; " + size + " belongs to the others");
-}
-
-tetlod_run_report report_of(vtkTetlodSimplify &filter) {
-  tetlod_run_report report{};
-  report.struct_size = sizeof report;
-  check(tetlod_fetch_report(filter.GetContext(), &report), filter.GetContext());
-  return report;
 }
 
 // "; --field takes another: a, b"; nothing where there is none.
@@ -51,7 +46,7 @@ bool has_whole_numbers(vtkDataArray *array) {
 void note_field(vtkTetlodSimplify &filter, const Arguments &arguments, std::vector<std::string> &notes) {
   vtkPointData &data = *vtkUnstructuredGrid::SafeDownCast(filter.GetInputDataObject(0, 0))->GetPointData();
   const std::string field = filter.GetOutput()->GetPointData()->GetScalars()->GetName();
-  const tetlod_run_report report = report_of(filter);
+  const tetlod_run_report report = run_report(filter.GetContext());
   std::string what;
   if (report.scalar_min == report.scalar_max)
     what = "is constant: shape alone decided";
@@ -61,7 +56,7 @@ void note_field(vtkTetlodSimplify &filter, const Arguments &arguments, std::vect
 }
 
 void note_moved_points(vtkTetlodSimplify &filter, std::vector<std::string> &notes) {
-  const std::int64_t points = report_of(filter).moved_points;
+  const std::int64_t points = run_report(filter.GetContext()).moved_points;
   if (points > 0)
     notes.push_back("cells are turned over: " + std::to_string(points) + " points were moved so that none is");
 }
@@ -70,7 +65,7 @@ void note_missed_size(vtkTetlodSimplify &filter, std::vector<std::string> &notes
   constexpr double usual = 1.03;  // what is within that is met
   const double asked = filter.GetOption("target-ratio");
   if (asked <= 0 || filter.GetOption("max-error") > 0) return;
-  const tetlod_run_report report = report_of(filter);
+  const tetlod_run_report report = run_report(filter.GetContext());
   const double kept = static_cast<double>(report.tets_out) / static_cast<double>(report.tets_in - report.dropped_tets);
   if (kept <= usual * asked) return;
   std::ostringstream text;

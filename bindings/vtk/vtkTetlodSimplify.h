@@ -86,7 +86,7 @@ class VTKTETLOD_EXPORT vtkTetlodSimplify : public vtkUnstructuredGridAlgorithm {
   double GetMinDistance();
   ///@}
   ///@{
-  /** Points this near become one, fraction of the diagonal; 0, the default: equal coordinates only. */
+  /** Points this near become one, fraction of the diagonal; 0, the default: at one place, but for rounding. */
   void SetMergeTolerance(double fraction);
   double GetMergeTolerance();
   ///@}

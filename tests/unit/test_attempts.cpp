@@ -114,7 +114,7 @@ class Attempted : public WholeRun {
     const Input input = input_of(original);
     FirstAttempt(input, options, prepared, host.job, result).run();
   }
-  double rms(const Mesh &original) { return measure_error(input_of(original), options, mesh(), 1, host.job).rms; }
+  double rms(const Mesh &original) { return measure_error(input_of(original), options, result, 1, host.job).rms; }
 };
 
 /// Where walls bend: plane ones stay what they are, whatever they weigh.

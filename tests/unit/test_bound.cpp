@@ -18,7 +18,7 @@ TEST_F(ABound, Holds) {
     options.max_error = bound;
     simplify(original);
     expect_sound(original, 1e-3);
-    EXPECT_LE(measure_error(input_of(original), options, mesh(), 0, host.job).max, bound);
+    EXPECT_LE(measure_error(input_of(original), options, result, 0, host.job).max, bound);
     EXPECT_LE(report().max_error, bound);
     EXPECT_GT(report().tets_out, before);
     before = report().tets_out;

@@ -1,4 +1,6 @@
 // Cracks that a field jumps across: a run keeps the values of both sides, or has them be one.
+#include <set>
+
 #include "carry_fields.hpp"
 #include "validate.hpp"
 #include "whole_run.hpp"
@@ -82,6 +84,32 @@ TEST_F(CrackedRuns, SidesThatWouldCrossAreOne) {
     EXPECT_EQ(verdict_on(input_of(bent), options, find_defects(input_of(bent), options, host.job), host.job).status(),
               Status::ok);
   }
+}
+
+/// Of such sides, too, the place of the flagged one counts, of which the other is a rounding away.
+TEST_F(CrackedRuns, SidesThatWouldCrossKeepFlaggedPlaces) {
+  Mesh bent = cracked_where_quads_cross(8, 1);
+  transform(bent, [](const Vec3 &p) { return Vec3(p.x, p.y, p.z + 0.02 * p.x * p.y); });
+  const auto numbers = [](const Vec3 &p) { return std::array<double, 3>{p.x, p.y, p.z}; };
+  std::set<std::array<double, 3>> seen, places;
+  std::vector<std::uint8_t> flags(bent.points.size(), 0);
+  std::set<std::int32_t> used;
+  for (const Tet &t : bent.tets) used.insert(t.begin(), t.end());
+  for (const std::int32_t v : used) {
+    Vec3 &p = bent.points[std::size_t(v)];
+    if (seen.insert(numbers(p)).second) continue;
+    p.x = std::nextafter(p.x, 2);
+    flags[std::size_t(v)] = keep_vertex;
+    places.insert(numbers(p));
+  }
+  ASSERT_GT(places.size(), 10u);
+  Input input = input_of(bent);
+  input.flags = strided(flags.data(), flags.size(), 1, 1, ElementType::uint8);
+  options.target_ratio = 0.5;
+  run(input, options, worker, host.job, result);
+  EXPECT_EQ(report().merged_points, std::int64_t(places.size()));
+  for (const Vec3 &p : mesh().points) places.erase(numbers(p));
+  EXPECT_TRUE(places.empty()) << places.size();
 }
 
 TEST_F(CrackedRuns, AStencilIsThatOfTheRun) {

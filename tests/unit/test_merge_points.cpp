@@ -78,6 +78,22 @@ TEST_F(MergePoints, ATinyToleranceTakesNoLonger) {
   EXPECT_LT(seconds(1e-312), 10 * usual);
 }
 
+/// Where coordinates are large the points are as far from each other as elsewhere.
+TEST_F(MergePoints, FarFromTheOriginItTakesNoLonger) {
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  for (int i = 0; i < 20000; i++) points.push_back(Vec3(uniform(random), uniform(random), uniform(random)));
+  const auto seconds = [&] {
+    const auto begin = std::chrono::steady_clock::now();
+    merge(1e-3);
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  };
+  const double usual = seconds();
+  for (Vec3 &p : points) p += 1e12;
+  EXPECT_LT(seconds(), 10 * usual);
+  expect(brute_force(1e-3));
+}
+
 TEST_F(MergePoints, ChainsDoNotCollapse) {
   for (int i = 0; i < 6; i++) points.push_back(Vec3(0.9 * i, 0, 0));
   EXPECT_EQ(merge(1), 3);
@@ -103,7 +119,7 @@ TEST_F(MergePoints, AgainstBruteForce) {
     }
 }
 
-/// Others have no cells of their own then, by the largest coordinate; nor beside so large a rounding.
+/// Others have no cells of their own then; nor beside so large a rounding.
 TEST_F(MergePoints, OneMayBeFarAway) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> uniform(0, 1);

@@ -39,7 +39,7 @@ class Slits : public WholeRun {
     });
   }
 
-  double rms() { return measure_error(input_of(slab), options, mesh(), 1, host.job).rms; }
+  double rms() { return measure_error(input_of(slab), options, result, 1, host.job).rms; }
   std::size_t tets() const { return slab.tets.size(); }
 
   Mesh slab;

@@ -15,7 +15,7 @@ using namespace test;
 /// Runs with a target size.
 class TargetedRun : public WholeRun {
  protected:
-  double rms(const Mesh &original) { return measure_error(input_of(original), options, mesh(), 1, host.job).rms; }
+  double rms(const Mesh &original) { return measure_error(input_of(original), options, result, 1, host.job).rms; }
 
   /// A small mesh is remeshed only where edges are to be cleaned.
   void sample_fast() {
@@ -95,7 +95,7 @@ TEST_F(TargetedRun, ALinearFieldStaysLinear) {
     options.target_ratio = ratio;
     simplify(original);
     expect_sound(original, 1e-3);
-    return measure_error(input_of(original), options, mesh(), 2, host.job);
+    return measure_error(input_of(original), options, result, 2, host.job);
   };
   for (double ratio : {0.5, 0.1}) {
     for (auto effort : {effort_fast, effort_accurate}) {
@@ -117,7 +117,7 @@ TEST_F(TargetedRun, AccurateFindsWhatIsExact) {
   options.target_ratio = 0.104;
   simplify(original);
   expect_sound(original, 1e-9);
-  EXPECT_LT(measure_error(input_of(original), options, mesh(), 2, host.job).max_inner, 1e-9);
+  EXPECT_LT(measure_error(input_of(original), options, result, 2, host.job).max_inner, 1e-9);
 }
 
 /// Of collapses alone, without passes: three hundredths of the tets come from vertices that are worst off.
@@ -222,7 +222,7 @@ TEST_F(TargetedRun, FieldsOfSmallAndLargeDoubles) {
     set_scalars(original, [&](const Vec3 &p) { return scale * std::sin(7 * p.x + 5 * p.y) * std::cos(4 * p.z); });
     simplify(original);
     expect_sound(original, 1e-3);
-    return measure_error(input_of(original), options, mesh(), 2, host.job).rms_inner;
+    return measure_error(input_of(original), options, result, 2, host.job).rms_inner;
   };
   const double usual = error_between(1);
   for (double scale : {1e-140, 1e140}) EXPECT_NEAR(error_between(scale), usual, 0.05 * usual) << scale;
