@@ -253,7 +253,7 @@ TETLOD_API tetlod_status tetlod_set_log(tetlod_context *context, tetlod_log_fn f
 /* stage: see tetlod_stage_name; fraction of that stage in [0, 1], never less than at the call before, if that was in
  * the same stage. Non-zero cancels the run. */
 typedef int32_t (*tetlod_progress_fn)(void *user, int32_t stage, double fraction);
-/* fn NULL: none (the default). Called by what lists TETLOD_ERR_TIME_LIMIT as a stage begins, then every 5 to 50 ms. */
+/* NULL: none, the default. Called as a stage begins by what lists _TIME_LIMIT, then each 5 to 50 ms (10M tets: 300). */
 TETLOD_API tetlod_status tetlod_set_progress(tetlod_context *context, tetlod_progress_fn fn, void *user);
 /* Makes the run, or other call that lists it, under way in another thread end with TETLOD_ERR_CANCELLED, as soon as
  * progress would be called. Without one under way it does nothing. */
@@ -374,7 +374,7 @@ enum {
 TETLOD_API tetlod_status tetlod_submit_field(tetlod_context *context, const char *name, int32_t association,
                                              const tetlod_array *values);
 /* A further field that steers, beside the scalars: a value a point, 1 component, float32 or float64; 3 at most.
- * Whatever looks at the scalars looks at all of them: an error of this field counts weight times its part of the
+ * What of a run looks at the scalars looks at all of them: an error of this field counts weight times its part of the
  * field's own range, one of the scalars its part of theirs. The samples of the paper [3.1] follow the largest variation
  * of any, as weighted; TETLOD_OPT_MAX_ERROR holds for each, relative to its own range, whatever its weight. weight: 0
  * to 1e6; 0: the field rides along, as by tetlod_submit_field. name is copied, not empty, and not that of the scalars:
@@ -436,13 +436,13 @@ TETLOD_API tetlod_status tetlod_estimate_memory(tetlod_context *context, uint64_
  * target ratio, boundary vertices, then all others; where no edge collapses, and none is moved, as in the original. */
 TETLOD_API tetlod_status tetlod_run(tetlod_context *context);
 
-/* Estimates the field error of the last result [4], at the original vertices and at samples_per_tet (0 to 100) random
+/* Estimates the scalars' error in the last result [4], at original vertices and at samples_per_tet (0 to 100) random
  * samples in each original tet. The input of the run must still be submitted: TETLOD_ERR_STATE if it is not, or points,
  * tets or which values are ignored changed. _STRUCT_SIZE, _MEMORY_LIMIT, _CANCELLED, _TIME_LIMIT, _MESH_NONFINITE. */
 TETLOD_API tetlod_status tetlod_measure_error(tetlod_context *context, int32_t samples_per_tet,
                                               tetlod_error_report *out);
-/* How many original (side 0, used or not) or result (side 1) vertices have a value in each of `bins` equal parts of the
- * original's range [4, Figure 5]; counts has room for bins (1 to 1 << 20) numbers. TETLOD_ERR_STATE. */
+/* How many original (side 0, used or not; still submitted) or result (side 1) vertices have a value in each of `bins`
+ * equal parts of the run's range [4, Figure 5]; counts has room for bins (1 to 1 << 20) numbers. TETLOD_ERR_STATE. */
 TETLOD_API tetlod_status tetlod_histogram(const tetlod_context *context, int32_t side, int32_t bins, int64_t *counts);
 
 /* ---- Fetching the result ---------------------------------------------------------------------------------------- */

@@ -282,7 +282,7 @@ void read(const std::string &path, bool runs) {
   const vtkSmartPointer<cli::VtkMessages> messages = vtkSmartPointer<cli::VtkMessages>::New();
   messages->install();
   std::vector<std::string> notes;
-  const auto grid = cli::read_grid(path, *messages, notes);
+  const auto grid = cli::read_grid(path, *messages, notes).grid;
   const auto original = tetlod_vtk::original_of(grid, nullptr, {}, nullptr, notes);
   messages->check(path, notes);
   tetlod::Context context;

@@ -93,8 +93,10 @@ class CracksOfMesh {
   Array<std::int32_t> count_points_of_large_parts() const {
     DisjointSets parts = mesh_.join_parts(job_);
     Array<std::int32_t> tets(place_.size(), 0, &job_.memory), points(place_.size(), 0, &job_.memory);
-    for (const Tet &t : mesh_.tets)
-      if (is_usable(t)) tets[std::size_t(parts.lowest(t[0]))]++;
+    for (std::size_t t = 0; t < mesh_.tets.size(); t++) {
+      job_.poll_at(t, 0.9);
+      if (is_usable(mesh_.tets[t])) tets[std::size_t(parts.lowest(mesh_.tets[t][0]))]++;
+    }
     for (std::size_t v = 0; v < place_.size(); v++)
       points[std::size_t(place_[v])] += tets[std::size_t(parts.lowest(std::int32_t(v)))] >= large_part;
     for (std::size_t v = 0; v < place_.size(); v++) points[v] = points[std::size_t(place_[v])];
@@ -133,13 +135,10 @@ class CracksOfMesh {
 
   /// The same triangles where hexahedra were split in one way on both sides, others that cross them where not.
   void find_pairs() {
-    Array<Triangle> at_places(&job_.memory);
-    at_places.reserve(faces_.size());
-    for (const Face &face : faces_) {
-      Triangle t = face.points;
-      for (std::int32_t &v : t) v = place(v);
-      at_places.push_back(t);
-    }
+    Array<Triangle> at_places = array_of(faces_.size(), Triangle(), job_);
+    for_each(faces_.size(), job_, [&](std::size_t i) {
+      for (std::size_t k = 0; k < 3; k++) at_places[i][k] = place(faces_[i].points[k]);
+    });
     const TriangleCorners corners(place_.size(), at_places, job_);
     for (std::size_t v = 0; v < place_.size(); v++) {
       job_.poll_at(v, 0.9);
@@ -178,15 +177,18 @@ class CracksOfMesh {
   /// Of tets that have faces in common as they were submitted. True: some are, and may be cracks.
   bool are_between_large_pieces() {
     if (pairs_.empty()) return false;
-    Array<std::uint8_t> excluded(&job_.memory);
-    for (const Tet &t : mesh_.tets) excluded.push_back(!is_usable(t));
+    Array<std::uint8_t> excluded = array_of(mesh_.tets.size(), std::uint8_t(0), job_);
+    for_each(excluded.size(), job_, [&](std::size_t t) { excluded[t] = !is_usable(mesh_.tets[t]); });
     DisjointSets pieces(mesh_.tets.size(), job_.memory);
     for_faces(excluded, [&](const FaceUse *first, const FaceUse *last) {
       for (const FaceUse *use = first + 1; use < last; use++)
         pieces.join(std::int32_t(first->tet()), std::int32_t(use->tet()));
     });
     Array<std::int32_t> count(mesh_.tets.size(), 0, &job_.memory);
-    for (std::size_t t = 0; t < count.size(); t++) count[std::size_t(pieces.lowest(std::int32_t(t)))]++;
+    for (std::size_t t = 0; t < count.size(); t++) {
+      job_.poll_at(t, 0.9);
+      count[std::size_t(pieces.lowest(std::int32_t(t)))]++;
+    }
     bool any = false;
     for (Pair &pair : pairs_) {
       pair.is_crack = std::all_of(pair.face.begin(), pair.face.end(), [&](std::int32_t face) {

@@ -76,6 +76,15 @@ double within(const std::string &flag, int64_t value, const tetlod_bounds &bound
 // What is empty is mostly a variable of a script that was not set.
 std::string fault_if_empty(const std::string &text) { return text.empty() ? "an empty value" : ""; }
 
+// The parser would take the next argument for the value that is not there.
+void refuse_missing_values(const CLI::App &app, int argc, char **argv) {
+  for (int i = 1; i < argc && std::string(argv[i]) != "--"; i++) {
+    const std::string argument = argv[i], name = argument.substr(0, argument.find('='));
+    if (name + "=" == argument && app.get_option_no_throw(name) != nullptr)
+      throw CLI::ValidationError(name, fault_if_empty(""));
+  }
+}
+
 // Of an integer. The conversion takes 010 for 8, and the nearest that 64 bits hold for what they do not.
 std::string fault_of_integer(const std::string &text) {
   const std::size_t first = text.find_first_not_of("+-");
@@ -162,8 +171,13 @@ void add_options(CLI::App &app, Arguments &arguments) {
   app.add_option("--pictures", arguments.pictures, "writes pictures of both meshes and a report.html there")
       ->type_name("DIR");
   app.add_flag("--quiet", arguments.quiet, "prints errors only");
+  const auto fault_if_option = [&app](const std::string &text) {
+    const bool is_option =
+        text.rfind("--", 0) == 0 && app.get_option_no_throw(text.substr(0, text.find('='))) != nullptr;
+    return is_option ? "'" + text + "' is an option, no value" : "";
+  };
   for (CLI::Option *option : app.get_options())
-    if (option->get_expected_min() > 0) option->check(fault_if_empty);
+    if (option->get_expected_min() > 0) option->check(fault_if_empty)->check(fault_if_option);
 }
 
 std::string joined(int argc, char **argv) {
@@ -203,10 +217,23 @@ std::string overwritten_by_report(const Arguments &arguments) {
   return is_picture(report, arguments.pictures) ? "one of the pictures" : "";
 }
 
+// Nothing but the table is printed.
+void refuse_standard_output(const Arguments &arguments) {
+  for (const std::string &path : {arguments.report, arguments.pictures})
+    if (path == "-") throw Failure("-: names no file (./- does)", kWrongUsage);
+}
+
 void check_report(const Arguments &arguments) {
   if (arguments.report.empty()) return;
   const std::string lost = overwritten_by_report(arguments);
   if (!lost.empty()) throw Failure(arguments.report + ": --report would overwrite " + lost, kWrongUsage);
+}
+
+// Which of the run's files a part of INPUT is; empty: none.
+std::string overwritten_by(const Arguments &arguments, const std::string &part) {
+  const auto is_part = [&](const std::string &file) { return !file.empty() && same_file(part, file); };
+  if (is_part(arguments.output) || is_part(piece_of(arguments.output))) return "OUTPUT";
+  return is_part(arguments.report) ? "--report" : "";
 }
 
 // A folder, made with those around it, in the place of a file that is read or written.
@@ -228,6 +255,7 @@ std::optional<Arguments> parse_arguments(int argc, char **argv) {
   app.set_version_flag("--version", std::string(tetlod_build_info()));
   add_options(app, arguments);
   try {
+    refuse_missing_values(app, argc, argv);
     app.parse(argc, argv);
   } catch (const CLI::Success &asked) {
     app.exit(asked, std::cout, std::cerr);
@@ -236,10 +264,17 @@ std::optional<Arguments> parse_arguments(int argc, char **argv) {
     throw Failure(std::string(error.what()) + " (see tetlod --help)", kWrongUsage);
   }
   check_endings(arguments);
+  refuse_standard_output(arguments);
   check_piece(arguments);
   check_report(arguments);
   check_pictures(arguments);
   return arguments;
+}
+
+void check_parts(const Arguments &arguments, const std::vector<std::string> &parts) {
+  for (const std::string &part : parts)
+    if (const std::string by = overwritten_by(arguments, part); !by.empty())
+      throw Failure(part + ": " + by + " would overwrite a part of INPUT", kWrongUsage);
 }
 
 }  // namespace cli

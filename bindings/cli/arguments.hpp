@@ -25,4 +25,7 @@ struct Arguments {
 // Nothing when only help or the version was asked for; that is printed. Throws Failure for wrong usage.
 std::optional<Arguments> parse_arguments(int argc, char **argv);
 
+// Throws Failure where the run would overwrite one of the files that INPUT names as its parts.
+void check_parts(const Arguments &arguments, const std::vector<std::string> &parts);
+
 }  // namespace cli

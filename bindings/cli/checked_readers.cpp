@@ -8,7 +8,10 @@
 #include <vtkXMLDataElement.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstring>
+#include <fstream>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -135,6 +138,17 @@ vtkSmartPointer<vtkDataArray> CheckedReader::values_of(vtkXMLDataElement *array,
 }
 
 int CheckedPartsReader::ReadPrimaryElement(vtkXMLDataElement *primary) {
+  parts_.clear();
+  for (int i = 0; i < primary->GetNumberOfNestedElements(); i++) {
+    vtkXMLDataElement &nested = *primary->GetNestedElement(i);
+    const char *const source = nested.GetAttribute("Source");
+    if (std::strcmp(nested.GetName(), "Piece") != 0 || source == nullptr) continue;
+    const std::unique_ptr<char[]> part(this->CreatePieceFileName(source));
+    parts_.emplace_back(part.get());
+    if (std::ifstream(parts_.back())) continue;
+    vtkErrorMacro(<< "its part " << parts_.back() << " cannot be read: " << std::strerror(errno));
+    return 0;
+  }
   if (const std::string wrong = wrong_array(*primary); !wrong.empty()) {
     vtkErrorMacro(<< wrong);
     return 0;

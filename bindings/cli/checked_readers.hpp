@@ -6,6 +6,9 @@
 #include <vtkXMLPUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
+#include <string>
+#include <vector>
+
 namespace cli {
 
 class CheckedReader : public vtkXMLUnstructuredGridReader {
@@ -28,6 +31,8 @@ class CheckedReader : public vtkXMLUnstructuredGridReader {
 class CheckedPartsReader : public vtkXMLPUnstructuredGridReader {
  public:
   static CheckedPartsReader *New();
+  // The files that the one that was read names.
+  const std::vector<std::string> &parts() const { return parts_; }
   CheckedPartsReader(const CheckedPartsReader &) = delete;
   CheckedPartsReader &operator=(const CheckedPartsReader &) = delete;
 
@@ -39,6 +44,9 @@ class CheckedPartsReader : public vtkXMLPUnstructuredGridReader {
   int ReadPieceData() override;
   void CopyArrayForPoints(vtkAbstractArray *from, vtkAbstractArray *to) override;
   void CopyArrayForCells(vtkAbstractArray *from, vtkAbstractArray *to) override;
+
+ private:
+  std::vector<std::string> parts_;
 };
 
 }  // namespace cli

@@ -5,9 +5,11 @@ struct tetlod_context;
 
 namespace cli {
 
-// From here on SIGINT and SIGTERM are remembered.
+// From here on SIGINT, SIGTERM and SIGHUP are remembered; what the caller has the process ignore stays ignored.
 void watch_interrupts();
 bool interrupted();
+// Ends the process by the signal that it was asked to end by, so that a script does not go on with the next file.
+void die_of_interruption();
 // Throws Failure once there was one.
 void stop_if_interrupted();
 

@@ -10,6 +10,7 @@
 #include <new>
 
 #include "arguments.hpp"
+#include "dying_reader.hpp"
 #include "failure.hpp"
 #include "interrupt.hpp"
 #include "notes.hpp"
@@ -53,23 +54,29 @@ void print_table(const Arguments &arguments, const std::string &field, const vtk
   std::cout << '\n';
 }
 
+Original read_input(const Arguments &arguments, VtkMessages &messages, Notes &notes) {
+  const DyingReader dying(arguments.input);
+  return read_grid(arguments.input, messages, notes);
+}
+
 void run(const Arguments &arguments) {
   // Everything that can be known to fail fails before the work is done.
   vtkNew<VtkMessages> messages;
   messages->install();
   const auto filter = make_filter(arguments, *messages);
   GridFile result(arguments.output);
-  std::optional<OutputFile> report;
-  if (!arguments.report.empty()) report.emplace(arguments.report);
   PicturesFolder pictures;
   if (!arguments.pictures.empty()) pictures.make(arguments.pictures);
+  std::optional<OutputFile> report;  // which may be in that folder
+  if (!arguments.report.empty()) report.emplace(arguments.report);
   ProgressBar bar(arguments.quiet);
   Notes notes;
   ToolSeconds seconds;
   Stopwatch watch;
 
   bar.show("read", 0.0);
-  const auto original = read_grid(arguments.input, *messages, notes);
+  const auto [original, parts] = read_input(arguments, *messages, notes);
+  check_parts(arguments, parts);
   seconds.reading = watch.lap();
   check_arrays(arguments.output, *original);
   stop_if_interrupted();
@@ -114,7 +121,9 @@ int main(int argc, char **argv) {
       check_printed();
     return kDone;
   } catch (const Failure &failure) {
-    return fail(failure.what(), failure.status());
+    const int status = fail(failure.what(), failure.status());
+    if (interrupted()) die_of_interruption();
+    return status;
   } catch (const std::bad_alloc &) {
     return fail("not enough memory", kFailed);
   } catch (const std::exception &error) {

@@ -55,12 +55,6 @@ void note_field(vtkTetlodSimplify &filter, const Arguments &arguments, std::vect
   if (!what.empty()) notes.push_back("the field '" + field + "' " + what + other_fields(data, field));
 }
 
-void note_moved_points(vtkTetlodSimplify &filter, std::vector<std::string> &notes) {
-  const std::int64_t points = run_report(filter.GetContext()).moved_points;
-  if (points > 0)
-    notes.push_back("cells are turned over: " + std::to_string(points) + " points were moved so that none is");
-}
-
 void note_missed_size(vtkTetlodSimplify &filter, std::vector<std::string> &notes) {
   constexpr double usual = 1.03;  // what is within that is met
   const double asked = filter.GetOption("target-ratio");
@@ -81,7 +75,6 @@ void note_missed_size(vtkTetlodSimplify &filter, std::vector<std::string> &notes
 void add_notes(vtkTetlodSimplify &filter, const Arguments &arguments, std::vector<std::string> &notes) {
   note_field(filter, arguments, notes);
   note_unused_options(filter, arguments, notes);
-  note_moved_points(filter, notes);
   note_missed_size(filter, notes);
 }
 

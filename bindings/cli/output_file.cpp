@@ -44,6 +44,7 @@ void copy_permissions(const std::string &from, const std::string &to) {
 OutputFile::OutputFile(const std::string &path)
     : path_(path), target_(target_of(path).string()), temporary_(temporary_name(path, target_).string()) {
   require_file_or_nothing(path_);
+  if (access(target_.c_str(), F_OK) == 0 && access(target_.c_str(), W_OK) != 0) fail(std::strerror(errno));
   if (!std::ofstream(temporary_, std::ios::binary)) fail(std::strerror(errno));
   std::remove(temporary_.c_str());
 }
@@ -81,7 +82,9 @@ std::string PassingFolder::operator/(const std::string &name) const { return (Pa
 void require_file_or_nothing(const std::string &path) {
   std::error_code ignored;  // opening the file tells
   const auto status = std::filesystem::status(path, ignored);
-  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  const bool is_open_already = folder == "/dev" || folder == "/dev/fd" || folder.rfind("/proc/", 0) == 0;
+  if (is_open_already || (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)))
     throw Failure(path + ": is not a file");
 }
 

@@ -44,7 +44,8 @@ class PassingFolder {
   std::string path_;
 };
 
-// Throws Failure for a folder, a pipe, a device: opening one may block, and renaming onto it would replace it.
+// Throws Failure for a folder, a pipe, a device: opening one may block, and renaming onto it would replace it. So it
+// would the file that /dev/stdout leads to.
 void require_file_or_nothing(const std::string &path);
 
 // From here on a write beyond a limit of files' sizes fails as on a full disk; the signal would end the process.

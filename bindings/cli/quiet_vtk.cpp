@@ -3,6 +3,8 @@
 #include <vtkLogger.h>
 #include <vtkObjectFactory.h>
 
+#include <algorithm>
+
 namespace cli {
 namespace {
 
@@ -15,10 +17,16 @@ std::string what_was_wrong(const char *text) {
   return one_line(generic == 0 && line != std::string::npos ? whole.substr(line) : whole);
 }
 
-// Of a .vtk file of text: where a word is no number to VTK, it takes the next ones for names.
+// Where a .vtk file has more numbers than it says, or a word of text is none to VTK, it takes the next ones for names.
 std::string with_reason(const std::string &message) {
   const bool is_about_a_name = message.find("Unsupported") == 0 && message.find(" attribute type: ") != message.npos;
-  return message + (is_about_a_name ? " (VTK reads no nan or inf from text)" : "");
+  return message +
+         (is_about_a_name ? " (more numbers than said, or one that VTK does not read from text, as nan)" : "");
+}
+
+// That one of its algorithms failed VTK says with all that it knows of it.
+bool says_nothing(const std::string &message) {
+  return message.find("Algorithm ") == 0 && message.find("returned failure for request") != message.npos;
 }
 
 }  // namespace
@@ -38,7 +46,9 @@ void VtkMessages::check(const std::string &path, std::vector<std::string> &notes
   unread_.clear();
   for (const std::string &warning : warnings_) notes.push_back(where + warning);
   warnings_.clear();
-  if (!errors.empty()) throw Failure(where + errors.front(), status);
+  if (errors.empty()) return;
+  const auto said = std::find_if_not(errors.begin(), errors.end(), says_nothing);
+  throw Failure(where + (said != errors.end() ? *said : "VTK cannot read it"), status);
 }
 
 void VtkMessages::DisplayErrorText(const char *text) { errors_.push_back(with_reason(what_was_wrong(text))); }

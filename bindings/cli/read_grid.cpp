@@ -1,10 +1,13 @@
 #include "read_grid.hpp"
 
+#include <vtkCellArray.h>
+#include <vtkCellType.h>
 #include <vtkUnstructuredGridReader.h>
 
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <new>
 
 #include "checked_readers.hpp"
 #include "failure.hpp"
@@ -42,22 +45,43 @@ Grid read_whole(const std::string &path, std::vector<std::string> &notes) {
   return grid;
 }
 
-Grid read_by_ending(const std::string &path, std::vector<std::string> &notes) {
+Grid read_parts(const std::string &path, std::vector<std::string> &parts) {
+  vtkNew<CheckedPartsReader> reader;
+  const Grid grid = read_with(*reader, path);
+  parts = reader->parts();
+  return grid;
+}
+
+Original read_by_ending(const std::string &path, std::vector<std::string> &notes) {
   const std::string ending = file_ending(path);
-  if (ending == ".vtk") return read_legacy(path);
-  if (ending == ".pvtu") return read_with(*vtkNew<CheckedPartsReader>(), path);
-  return read_whole(path, notes);
+  Original original;
+  if (ending == ".vtk")
+    original.grid = read_legacy(path);
+  else if (ending == ".pvtu")
+    original.grid = read_parts(path, original.parts);
+  else
+    original.grid = read_whole(path, notes);
+  return original;
+}
+
+// VTK writes them last: of a file that is cut off there they are missing, and read as none.
+void check_types(vtkUnstructuredGrid &grid, const std::string &path) {
+  for (vtkIdType c = 0; c < grid.GetNumberOfCells(); c++)
+    if (grid.GetCellType(c) == VTK_EMPTY_CELL && grid.GetCells()->GetCellSize(c) > 0)
+      throw Failure(path + ": is damaged: cell " + std::to_string(c) + " has points, but no type");
 }
 
 }  // namespace
 
-vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string &path, VtkMessages &messages,
-                                               std::vector<std::string> &notes) {
+Original read_grid(const std::string &path, VtkMessages &messages, std::vector<std::string> &notes) try {
   check_readable(path);
-  Grid grid = read_by_ending(path, notes);
+  Original original = read_by_ending(path, notes);
   messages.check(path, notes);
-  if (grid == nullptr || grid->GetNumberOfCells() == 0) throw Failure(path + ": holds no cells");
-  return grid;
+  if (original.grid == nullptr || original.grid->GetNumberOfCells() == 0) throw Failure(path + ": holds no cells");
+  check_types(*original.grid, path);
+  return original;
+} catch (const std::bad_alloc &) {
+  throw Failure(path + ": not enough memory to read it");
 }
 
 }  // namespace cli

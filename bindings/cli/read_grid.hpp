@@ -11,8 +11,12 @@
 
 namespace cli {
 
+struct Original {
+  vtkSmartPointer<vtkUnstructuredGrid> grid;
+  std::vector<std::string> parts;  // the files that a .pvtu names
+};
+
 // .vtu, .vtk or .pvtu. Throws Failure.
-vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string &path, VtkMessages &messages,
-                                               std::vector<std::string> &notes);
+Original read_grid(const std::string &path, VtkMessages &messages, std::vector<std::string> &notes);
 
 }  // namespace cli

@@ -12,6 +12,7 @@
 #include <vtkXMLUnstructuredGridWriter.h>
 #include <vtkXMLUtilities.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -89,22 +90,43 @@ void write_legacy(const OutputFile &file, vtkUnstructuredGrid *grid) {
   write_with(*writer, file, file.temporary(), grid);
 }
 
-// The writer puts names between quotes as they are.
-bool survives_xml(const char *name) {
-  const auto element = vtk::TakeSmartPointer(
-      vtkXMLUtilities::ReadElementFromString(("<Array Name=\"" + std::string(name) + "\"/>").c_str()));
+// value: between quotes, as it stands in the file.
+bool is_read_as(const std::string &name, const std::string &value) {
+  const auto element =
+      vtk::TakeSmartPointer(vtkXMLUtilities::ReadElementFromString(("<Array Name=" + value + "/>").c_str()));
   const char *read = element != nullptr ? element->GetAttribute("Name") : nullptr;
-  return read != nullptr && std::strcmp(read, name) == 0;
+  return read != nullptr && name == read;
 }
 
-void check_name(const std::string &path, const char *name) {
+// The writer puts names between quotes as they are.
+bool survives_xml(const std::string &name) { return is_read_as(name, '"' + name + '"'); }
+
+void check_name(const std::string &path, const char *name, const std::string &of_what) {
   if (name != nullptr && !survives_xml(name))
-    throw Failure(path + ": a .vtu file cannot have the name '" + name + "' for an array or a component; .vtk can");
+    throw Failure(path + ": a .vtu file cannot have the name '" + name + "' for " + of_what + "; .vtk can");
 }
 
+// VTK's reader of .vtk files gives components without a name an empty one, where others have names.
 void check_names_of(const std::string &path, vtkAbstractArray *array) {
-  check_name(path, array->GetName());
-  for (int i = 0; i < array->GetNumberOfComponents(); i++) check_name(path, array->GetComponentName(i));
+  check_name(path, array->GetName(), "an array");
+  const char *const of = array->GetName();
+  for (int i = 0; i < array->GetNumberOfComponents(); i++)
+    if (const char *const name = array->GetComponentName(i); name != nullptr && *name != 0)
+      check_name(path, name, "a component of '" + std::string(of != nullptr ? of : "") + "'");
+}
+
+// As the writer puts it into the file.
+std::size_t length_in_legacy(const std::string &name) {
+  const auto is_plain = [](unsigned char c) { return c > ' ' && c < 127 && c != '"' && c != '%'; };
+  const auto plain = std::size_t(std::count_if(name.begin(), name.end(), is_plain));
+  return plain + 3 * (name.size() - plain);
+}
+
+// The reader takes no more.
+void check_length_for_legacy(const std::string &path, const char *name) {
+  constexpr std::size_t most = 255;
+  if (name != nullptr && length_in_legacy(name) > most)
+    throw Failure(path + ": a .vtk file cannot have so long a name for an array: '" + name + "'; .vtu can");
 }
 
 // The writer loses all that follows several bits a cell, and what follows a blank in the name of colours.
@@ -126,15 +148,26 @@ void check_cells_of_legacy(const std::string &path, vtkCellData &data) {
 }  // namespace
 
 void check_arrays(const std::string &path, vtkUnstructuredGrid &grid) {
-  if (file_ending(path) == ".vtk") return check_cells_of_legacy(path, *grid.GetCellData());
+  const bool is_legacy = file_ending(path) == ".vtk";
   for (int type : {vtkDataObject::POINT, vtkDataObject::CELL, vtkDataObject::FIELD}) {
     vtkFieldData &data = *grid.GetAttributesAsFieldData(type);
-    for (int i = 0; i < data.GetNumberOfArrays(); i++) check_names_of(path, data.GetAbstractArray(i));
+    for (int i = 0; i < data.GetNumberOfArrays(); i++) {
+      if (is_legacy)
+        check_length_for_legacy(path, data.GetAbstractArray(i)->GetName());
+      else
+        check_names_of(path, data.GetAbstractArray(i));
+    }
   }
+  if (is_legacy) check_cells_of_legacy(path, *grid.GetCellData());
 }
 
 GridFile::GridFile(const std::string &path) : file_(path) {
-  if (const std::string piece = piece_of(path); !piece.empty()) piece_.emplace(piece);
+  const std::string piece = piece_of(path);
+  if (piece.empty()) return;
+  const std::string name = std::filesystem::path(piece).filename().string();
+  if (!is_read_as(name, quoted(name)))
+    throw Failure(path + ": a .pvtu file cannot have the name of its piece, " + piece + ", in it");
+  piece_.emplace(piece);
 }
 
 void GridFile::write(vtkUnstructuredGrid *grid, VtkMessages &messages, std::vector<std::string> &notes) const {

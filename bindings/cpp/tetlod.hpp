@@ -23,6 +23,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -39,18 +40,15 @@ class Error : public std::runtime_error {
   tetlod_status status_;
 };
 
+/// 0: there is none. Of integers the width counts: long and long long may both be of 64 bits.
 template <class T>
-constexpr std::int32_t element_type = 0;
-template <>
-inline constexpr std::int32_t element_type<std::int32_t> = TETLOD_INT32;
-template <>
-inline constexpr std::int32_t element_type<std::int64_t> = TETLOD_INT64;
-template <>
-inline constexpr std::int32_t element_type<float> = TETLOD_FLOAT32;
-template <>
-inline constexpr std::int32_t element_type<double> = TETLOD_FLOAT64;
-template <>
-inline constexpr std::int32_t element_type<std::uint8_t> = TETLOD_UINT8;
+constexpr std::int32_t element_type = std::is_same_v<T, float>                         ? TETLOD_FLOAT32
+                                      : std::is_same_v<T, double>                      ? TETLOD_FLOAT64
+                                      : std::is_same_v<T, std::uint8_t>                ? TETLOD_UINT8
+                                      : !std::is_integral_v<T> || !std::is_signed_v<T> ? 0
+                                      : sizeof(T) == 4                                 ? TETLOD_INT32
+                                      : sizeof(T) == 8                                 ? TETLOD_INT64
+                                                                                       : 0;
 
 /// An array of the caller's, anywhere; strides are in bytes, 0 means packed. See tetlod_array.
 class Source {
@@ -60,7 +58,7 @@ class Source {
          std::int64_t component_stride = 0)
       : array{sizeof array,     element_type<T>,      tuples, components, 0, tuple_stride,
               component_stride, const_cast<T *>(data)} {  // the library never writes to what is submitted
-    static_assert(element_type<T> != 0, "elements are int32_t, int64_t, float, double or uint8_t");
+    static_assert(element_type<T> != 0, "elements are signed integers of 32 or 64 bits, float, double or uint8_t");
   }
   tetlod_array array;
 };
@@ -72,7 +70,7 @@ class Destination {
   Destination(T *data, std::int64_t tuples, std::int32_t components = 1, std::int64_t tuple_stride = 0,
               std::int64_t component_stride = 0)
       : array{sizeof array, element_type<T>, tuples, components, 0, tuple_stride, component_stride, data} {
-    static_assert(element_type<T> != 0, "elements are int32_t, int64_t, float, double or uint8_t");
+    static_assert(element_type<T> != 0, "elements are signed integers of 32 or 64 bits, float, double or uint8_t");
   }
   tetlod_array array;
 };
@@ -152,9 +150,11 @@ class Context {
   }
   Context(Context &&other) noexcept
       : handle_(std::exchange(other.handle_, nullptr)), callbacks_(std::move(other.callbacks_)) {}
+  /// What this was ends.
   Context &operator=(Context &&other) noexcept {
-    std::swap(handle_, other.handle_);
-    std::swap(callbacks_, other.callbacks_);
+    Context taken(std::move(other));
+    std::swap(handle_, taken.handle_);
+    std::swap(callbacks_, taken.callbacks_);
     return *this;
   }
 

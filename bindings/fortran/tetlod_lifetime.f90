@@ -11,7 +11,8 @@ module tetlod_lifetime
   public :: tetlod_log_procedure, tetlod_progress_procedure
 
   abstract interface
-    ! level: 0 debug, 1 info, 2 warning. user is what was given with the procedure, null without.
+    ! level: 0 debug, 1 info, 2 warning. user is what was given with the procedure, null without. gfortran 12 lets a
+    ! select type on it not write to an integer or a real: do that by a pointer of your own, p => user.
     subroutine tetlod_log_procedure(level, message, user)
       import :: c_int32_t
       integer(c_int32_t), intent(in) :: level

@@ -1,5 +1,6 @@
 ! The options of a context: generics over the kinds, one procedure an entry of the C ABI.
 module tetlod_settings
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64, real32, real64
   use tetlod_c
@@ -116,6 +117,7 @@ contains
     real(c_double) :: double
     type(tetlod_bounds) :: bounds
     double = real(value, c_double)
+    if (ieee_is_nan(value)) return  ! to compare it may trap
     bounds%struct_size = int(c_sizeof(bounds), c_int32_t)
     if (c_option_bounds(option, bounds) /= TETLOD_OK) return
     if (value <= real(bounds%most, real32)) double = min(double, bounds%most)

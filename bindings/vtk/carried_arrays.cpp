@@ -7,6 +7,7 @@
 #include <vtkPointData.h>
 #include <vtkTypeInt64Array.h>
 
+#include <algorithm>
 #include <numeric>
 
 namespace tetlod_vtk {
@@ -36,14 +37,15 @@ int attribute_of(vtkDataSetAttributes &data, int index, int32_t association) {
   return association == TETLOD_POINT_FIELD && is_lost ? -1 : attribute;
 }
 
-// use(array, attribute) for each that is carried.
+// use(array, attribute) for each that is carried: none of the others, which have a part of their own.
 template <class Use>
-void for_carried(vtkDataSetAttributes &data, int32_t association, vtkDataArray *steering,
+void for_carried(vtkDataSetAttributes &data, int32_t association, const std::vector<vtkDataArray *> &others,
                  std::vector<std::string> &notes, const Use &use) {
   for (int i = 0; i < data.GetNumberOfArrays(); i++) {
     vtkAbstractArray *array = data.GetAbstractArray(i);
     const std::string name = array->GetName() != nullptr ? array->GetName() : "";
-    if (array == steering || is_bookkeeping(data, array)) continue;
+    const bool is_other = std::find(others.begin(), others.end(), array) != others.end();
+    if (is_other || is_bookkeeping(data, array)) continue;
     const std::string reason = why_left_out(*array);
     if (reason.empty())
       use(data.GetArray(i), attribute_of(data, i, association));
@@ -87,19 +89,18 @@ std::string name_of_none(vtkDataSetAttributes &data, std::string name) {
   return name;
 }
 
-std::vector<CarriedArray> carried_arrays(vtkUnstructuredGrid &grid, vtkDataArray *steering,
+std::vector<CarriedArray> carried_arrays(vtkUnstructuredGrid &grid, const std::vector<vtkDataArray *> &others,
                                          std::vector<std::string> &notes) {
   std::vector<CarriedArray> all;
-  for_carried(*grid.GetPointData(), TETLOD_POINT_FIELD, steering, notes, [&](vtkDataArray *array, int attribute) {
+  for_carried(*grid.GetPointData(), TETLOD_POINT_FIELD, others, notes, [&](vtkDataArray *array, int attribute) {
     all.push_back({array, attribute, lend_reals(array)});
   });
   return all;
 }
 
-CellArrays cell_arrays(vtkUnstructuredGrid &grid, vtkDataArray *steering, const Tets &tets,
-                       std::vector<std::string> &notes) {
+CellArrays cell_arrays(vtkUnstructuredGrid &grid, const Tets &tets, std::vector<std::string> &notes) {
   CellArrays arrays{{}, tets.cells, {}, name_of_none(*grid.GetPointData(), "tet numbers")};
-  for_carried(*grid.GetCellData(), TETLOD_CELL_FIELD, steering, notes, [&](vtkDataArray *array, int attribute) {
+  for_carried(*grid.GetCellData(), TETLOD_CELL_FIELD, {}, notes, [&](vtkDataArray *array, int attribute) {
     arrays.all.push_back({array, attribute});
   });
   if (!arrays.all.empty()) arrays.numbers = counted(tets.corners->GetNumberOfValues() / 4);

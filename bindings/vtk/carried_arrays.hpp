@@ -39,15 +39,14 @@ struct CellArrays {
 // That name, or one like it that no array has.
 std::string name_of_none(vtkDataSetAttributes &data, std::string name);
 
-// All named arrays of numbers of points but the steering one. They become means, so integers become doubles. Ghost
-// marks and global numbers have no meaning any more. A note says which are left out: without a name, or of more than 64
-// components.
-std::vector<CarriedArray> carried_arrays(vtkUnstructuredGrid &grid, vtkDataArray *steering,
+// All named arrays of numbers of points but the others, which steer or flag. They become means, so integers become
+// doubles. Ghost marks and global numbers have no meaning any more. A note says which are left out: without a name, or
+// of more than 64 components.
+std::vector<CarriedArray> carried_arrays(vtkUnstructuredGrid &grid, const std::vector<vtkDataArray *> &others,
                                          std::vector<std::string> &notes);
 
 // The same of cells, which keep their type.
-CellArrays cell_arrays(vtkUnstructuredGrid &grid, vtkDataArray *steering, const Tets &tets,
-                       std::vector<std::string> &notes);
+CellArrays cell_arrays(vtkUnstructuredGrid &grid, const Tets &tets, std::vector<std::string> &notes);
 
 // Gives the result's array the original's unit and names of components. What else VTK has noted of an array is of its
 // values, such as their range; it depends on who asked for it before.

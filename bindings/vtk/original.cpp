@@ -99,7 +99,7 @@ Original original_of(vtkUnstructuredGrid *input, vtkInformation *steering, const
   require_tuples(*input->GetCellData(), input->GetNumberOfCells(), "cells");
   original.grid = cut_around_middles(input, wanted_name(flags), notes);
   vtkDataArray *field = steering_array(*original.grid, steering);
-  original.flags = flags_array(*original.grid, flags);
+  original.arrays.flags = flags_array(*original.grid, flags);
   original.tets = tets_of(*original.grid, notes);
   original.is_split = original.tets.cells != nullptr || original.grid != input;
   original.values = lend_reals(field);
@@ -107,8 +107,8 @@ Original original_of(vtkUnstructuredGrid *input, vtkInformation *steering, const
   original.arrays.points = original.grid->GetPoints()->GetData();
   original.arrays.steering = field;
   original.arrays.name = name_of(*field, *original.grid->GetPointData());
-  original.arrays.others = carried_arrays(*original.grid, field, notes);
-  original.arrays.of_cells = cell_arrays(*original.grid, field, original.tets, notes);
+  original.arrays.others = carried_arrays(*original.grid, {field, original.arrays.flags}, notes);
+  original.arrays.of_cells = cell_arrays(*original.grid, original.tets, notes);
   for (const WeightedArray &array : further)
     further_array(*original.grid, array.name, original.arrays).weight = array.weight;
   return original;
@@ -123,8 +123,8 @@ void submit(tetlod::Context &context, const Original &original) {
   if (const CellArrays &cells = original.arrays.of_cells; cells.numbers.keeper != nullptr)
     require(tetlod_submit_field(context.get(), cells.name_of_numbers.c_str(), TETLOD_CELL_FIELD, &cells.numbers.array),
             context);
-  if (original.flags == nullptr) return;
-  const tetlod_array flags = room_in(original.flags, 1);
+  if (original.arrays.flags == nullptr) return;
+  const tetlod_array flags = room_in(original.arrays.flags, 1);
   require(tetlod_submit_point_flags(context.get(), &flags), context);
 }
 

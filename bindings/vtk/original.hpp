@@ -2,7 +2,6 @@
 #pragma once
 
 #include <vtkSmartPointer.h>
-#include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <string>
@@ -22,8 +21,7 @@ struct Original {
   LentArray points;                           // without a keeper: the grid's are separate x, y and z
   LentArray values;
   Tets tets;
-  bool is_split = false;                        // tets are not the input's cells
-  vtkSmartPointer<vtkUnsignedCharArray> flags;  // may be null
+  bool is_split = false;  // tets are not the input's cells
   OriginalArrays arrays;
 };
 

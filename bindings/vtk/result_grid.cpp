@@ -46,6 +46,22 @@ void fill_scalars(const tetlod::Context &context, const OriginalArrays &arrays, 
   grid.GetPointData()->SetScalars(values);
 }
 
+// Of points that are original ones, with the whole weight in their stencil.
+vtkSmartPointer<vtkUnsignedCharArray> flags_of_result(const tetlod::Context &context, vtkUnsignedCharArray &original,
+                                                      vtkIdType count) {
+  std::vector<std::int32_t> ids(4 * std::size_t(count));
+  std::vector<double> weights(ids.size());
+  context.fetch_stencil(0, {ids.data(), count, 4}, {weights.data(), count, 4});
+  vtkNew<vtkUnsignedCharArray> flags;
+  flags->SetName(original.GetName());
+  flags->SetNumberOfValues(count);
+  for (vtkIdType i = 0; i < count; i++) {
+    const auto first = std::size_t(4 * i);
+    flags->SetValue(i, weights[first] == 1 ? original.GetValue(ids[first]) : static_cast<unsigned char>(0));
+  }
+  return flags;
+}
+
 void add(vtkDataArray *array, int attribute, vtkDataSetAttributes &data) {
   const int at = data.AddArray(array);
   if (attribute >= 0) data.SetActiveAttribute(at, attribute);
@@ -60,6 +76,7 @@ void fill_result(const tetlod::Context &context, const OriginalArrays &arrays, v
   fill_scalars(context, arrays, counts.points, grid);
   for (const CarriedArray &other : arrays.others)
     add(fetch_carried(context, other, counts.points), other.attribute, *grid.GetPointData());
+  if (arrays.flags != nullptr) grid.GetPointData()->AddArray(flags_of_result(context, *arrays.flags, counts.points));
   const auto of_cells = fetch_all(context, arrays.of_cells, counts.tets);
   for (std::size_t i = 0; i < of_cells.size(); i++)
     add(of_cells[i], arrays.of_cells.all[i].attribute, *grid.GetCellData());

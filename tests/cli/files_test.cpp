@@ -368,6 +368,18 @@ TEST_F(Files, WhatAFormatLosesIsRefused) {
   }
 }
 
+// To the reader of .vtk files they have a name, which is empty.
+TEST_F(Files, ComponentsMayLackAName) {
+  const std::string in = folder / "in.vtu", between = folder / "between.vtk", out = folder / "out.vtu";
+  std::ofstream(in) << one_tet_in_xml(
+      R"(<DataArray type="Float64" Name="pair" NumberOfComponents="2" ComponentName1="second" format="ascii">
+0 0 0 1 1 0 1 1</DataArray>)");
+  ASSERT_EQ(run_tool({in, between, "--target-ratio", "1"}).status, 0);
+  const Outcome back = run_tool({between, out, "--target-ratio", "1"});
+  EXPECT_EQ(back.status, 0) << back.err;
+  expect_in(contents_of(out), "second");
+}
+
 TEST_F(Files, NamesThatAreMissingOrLost) {
   const std::string in = folder / "in.vtk", between = folder / "between.vtu", out = folder / "out.vtk";
   std::ofstream(in) << one_tet("", "my%20part 1 1 unsigned_char\n9\n");
@@ -376,6 +388,9 @@ TEST_F(Files, NamesThatAreMissingOrLost) {
   const std::string data = "<CellData", name = "Name=\"my part\"";
   std::ofstream(between, std::ios::binary) << text.insert(text.find(data) + data.size(), " Scalars=\"my part\"");
   expect_in(run_tool({between, out}).err, "'my part' of cells, a blank in their name");
+  const std::string longest = "Name=\"" + std::string(256, 'n') + "\"";
+  std::ofstream(between, std::ios::binary) << std::string(text).replace(text.rfind(name), name.size(), longest);
+  expect_in(run_tool({between, out}).err, "cannot have so long a name");
   std::ofstream(between, std::ios::binary) << text.replace(text.rfind(name), name.size(), "");
   expect_in(run_tool({between, out}).err, "an array of CellData has no name");
 }

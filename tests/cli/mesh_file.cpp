@@ -226,4 +226,16 @@ void write_cube(const std::string &path, const Cube &cube) {
   if (!cube.cells_alone) write_point_data(file, cube, lattice);
 }
 
+std::string one_tet_in_xml(const std::string &point_data, const std::string &type) {
+  return R"(<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian"><UnstructuredGrid>
+<Piece NumberOfPoints="4" NumberOfCells="1"><PointData Scalars="heat">
+<DataArray type="Float64" Name="heat" format="ascii">0 1 2 3</DataArray>)" +
+         point_data + R"(</PointData><Points>
+<DataArray type="Float64" NumberOfComponents="3" format="ascii">0 0 0 1 0 0 0 1 0 0 0 1</DataArray></Points><Cells>
+<DataArray type="Int64" Name="connectivity" format="ascii">0 1 2 3</DataArray>
+<DataArray type="Int64" Name="offsets" format="ascii">4</DataArray>
+<DataArray type="UInt8" Name="types" format="ascii">)" +
+         type + R"(</DataArray></Cells></Piece></UnstructuredGrid></VTKFile>)";
+}
+
 }  // namespace cli_test

@@ -28,4 +28,7 @@ struct Cube {
 // "flow" = (0, -x, 0). Cell data: "part", 5 or 6 in turns.
 void write_cube(const std::string &path, const Cube &cube);
 
+// The text of a .vtu file with the scalars "heat" and further point data, and the cell's type.
+std::string one_tet_in_xml(const std::string &point_data, const std::string &type = "10");
+
 }  // namespace cli_test

@@ -55,7 +55,8 @@ TEST_F(Report, SaysThatPointsWereMoved) {
   const Outcome said = run({"--target-ratio", "0.5"}, bent);
   ASSERT_EQ(said.status, 0) << said.err;
   EXPECT_GT(json["moved_points"], 0);
-  EXPECT_NE(said.err.find("note: cells are turned over: " + json["moved_points"].dump() + " points"), std::string::npos)
+  EXPECT_NE(said.err.find("tets are turned over: " + json["moved_points"].dump() + " points are moved"),
+            std::string::npos)
       << said.err;
   EXPECT_EQ(run({"--target-ratio", "0.5", "--on-overlap", "error"}, bent).status, 1);
   ASSERT_EQ(run({"--target-ratio", "0.5"}).status, 0);

@@ -58,9 +58,9 @@ bool catches_interrupts(pid_t child) {
   return false;
 }
 
-void interrupt(pid_t child) {
+void interrupt(pid_t child, int signal) {
   while (!has_ended(child) && !catches_interrupts(child)) usleep(1000);
-  kill(child, SIGINT);  // not waited for yet, so the number is still its own
+  kill(child, signal);  // not waited for yet, so the number is still its own
 }
 
 void end_after_a_minute(pid_t child) {
@@ -120,7 +120,9 @@ Outcome run_tool_printing_to(const std::string &device, const std::vector<std::s
       arguments, [](pid_t) {}, device);
 }
 
-Outcome interrupt_tool(const std::vector<std::string> &arguments) { return run_and(arguments, interrupt); }
+Outcome interrupt_tool(const std::vector<std::string> &arguments, int signal) {
+  return run_and(arguments, [signal](pid_t child) { interrupt(child, signal); });
+}
 
 Folder::Folder() {
   std::string name = (std::filesystem::temp_directory_path() / "tetlod-cli-XXXXXX").string();

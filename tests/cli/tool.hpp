@@ -24,8 +24,8 @@ Outcome run_tool_with_room(const std::vector<std::string> &arguments, long bytes
 // The same with another stdout, which is not read again.
 Outcome run_tool_printing_to(const std::string &device, const std::vector<std::string> &arguments);
 
-// The same, interrupted (SIGINT) as soon as the tool is ready for that.
-Outcome interrupt_tool(const std::vector<std::string> &arguments);
+// The same, interrupted by that signal as soon as the tool is ready for SIGINT.
+Outcome interrupt_tool(const std::vector<std::string> &arguments, int signal);
 
 // A folder of its own for a test, gone with it.
 class Folder {

@@ -1,40 +1,20 @@
 // Wrong usage ends with status 2, everything else that fails with 1; either way one line on stderr, nothing on stdout
 // and no file.
+#include "usage.hpp"
+
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <fstream>
 #include <string>
 #include <utility>
 
-#include "mesh_file.hpp"
-#include "tool.hpp"
-
 namespace cli_test {
 namespace {
-
-void expect_failure(const Outcome &outcome, int status, const std::string &said) {
-  EXPECT_EQ(outcome.status, status) << outcome.err;
-  EXPECT_EQ(lines_of(outcome.err), 1) << outcome.err;
-  EXPECT_EQ(outcome.out, "");
-  EXPECT_EQ(outcome.err.rfind("tetlod: ", 0), 0U) << outcome.err;
-  EXPECT_NE(outcome.err.find(said), std::string::npos) << "'" << said << "' is not in: " << outcome.err;
-}
-
-class Usage : public testing::Test {
- protected:
-  // The cube's file, and arguments after it.
-  Outcome run_on(const Cube &cube, std::vector<std::string> more = {}) {
-    write_cube(folder / "in.vtk", cube);
-    more.insert(more.begin(), {folder / "in.vtk", folder / "out.vtu"});
-    return run_tool(more);
-  }
-  void expect_only_input() { EXPECT_EQ(folder.names(), std::vector<std::string>{"in.vtk"}); }
-
-  Folder folder;
-};
 
 TEST_F(Usage, HelpAndVersionArePrinted) {
   const Outcome help = run_tool({"--help"}), version = run_tool({"--version"});
@@ -117,90 +97,6 @@ TEST_F(Usage, OfSeveralTimeStepsOneIsTaken) {
   EXPECT_EQ(outcome.err, "tetlod: note: " + in + ": the first of 3 time steps is taken\n");
 }
 
-TEST_F(Usage, FilesThatCannotBeRead) {
-  const std::string out = folder / "out.vtu";
-  expect_failure(run_tool({folder / "missing.vtu", out}), 1, "missing.vtu");
-  expect_failure(run_tool({folder / "missing.vtk", out}), 1, "missing.vtk");
-  write_cube(folder / "in.vtk", {});
-  const std::string whole = contents_of(folder / "in.vtk");
-  for (const char *name : {"bad.vtu", "bad.vtk", "bad.pvtu"}) {
-    std::ofstream(folder / name) << "this is no mesh\n";
-    expect_failure(run_tool({folder / name, out}), 1, name);
-    std::ofstream(folder / name, std::ios::trunc);
-    expect_failure(run_tool({folder / name, out}), 1, name);
-  }
-  std::ofstream(folder / "cut.vtk") << whole.substr(0, whole.size() / 3);
-  expect_failure(run_tool({folder / "cut.vtk", out}), 1, "cut.vtk");
-  EXPECT_FALSE(std::filesystem::exists(out));
-}
-
-std::string with_count(std::string text, const std::string &name, const std::string &count) {
-  const std::size_t begin = text.find(name + "=\"") + name.size() + 2;
-  return text.replace(begin, text.find('"', begin) - begin, count);
-}
-
-// In the file itself, and in one that another names as its part.
-TEST_F(Usage, CountsThatAreNone) {
-  const std::string in = folder / "in.vtu", out = folder / "out.vtu", parts = folder / "parts.pvtu";
-  write_cube(folder / "in.vtk", {});
-  ASSERT_EQ(run_tool({folder / "in.vtk", in}).status, 0);
-  const std::string whole = contents_of(in);
-  std::ofstream(parts) << R"(<VTKFile type="PUnstructuredGrid" version="0.1"><PUnstructuredGrid>
-<PPointData><PDataArray type="Float64" Name="heat"/></PPointData>
-<PPoints><PDataArray type="Float64" NumberOfComponents="3"/></PPoints>
-<Piece Source="in.vtu"/></PUnstructuredGrid></VTKFile>)";
-  for (const char *name : {"NumberOfPoints", "NumberOfCells"}) {
-    for (const char *count : {"-1", "-2", "9223372036854775807", "many"}) {
-      std::ofstream(in) << with_count(whole, name, count);
-      expect_failure(run_tool({in, out}), 1, std::string(name) + "=\"" + count);
-      expect_failure(run_tool({parts, out}), 1, std::string(name) + "=\"" + count);
-    }
-  }
-  EXPECT_FALSE(std::filesystem::exists(out));
-}
-
-// Wherever a file of the old format ends, in numbers or in bytes, it is too short.
-TEST_F(Usage, FilesThatEndTooSoon) {
-  const std::string in = folder / "in.vtk", whole_file = folder / "whole.vtk", out = folder / "out.vtu";
-  write_cube(in, {});
-  ASSERT_EQ(run_tool({in, whole_file, "--sigma", "1"}).status, 0);
-  for (const std::string &from : {in, whole_file}) {
-    const std::string whole = contents_of(from);
-    const std::size_t values = whole.rfind("LOOKUP_TABLE");
-    for (std::size_t end : {values, whole.find('\n', values) + 1, (values + whole.size()) / 2}) {
-      std::ofstream(folder / "part.vtk", std::ios::binary) << whole.substr(0, end);
-      expect_failure(run_tool({folder / "part.vtk", out}), 1, "part.vtk: ");
-    }
-  }
-  EXPECT_FALSE(std::filesystem::exists(out));
-}
-
-// A summary that is not that of its piece; VTK would copy into room for something else, or never end.
-TEST_F(Usage, ArraysThatAreNotAsDeclared) {
-  const std::string in = folder / "in.vtu", out = folder / "out.vtu", parts = folder / "parts.pvtu";
-  write_cube(folder / "in.vtk", {});
-  ASSERT_EQ(run_tool({folder / "in.vtk", in}).status, 0);
-  const auto expect_refused = [&](const std::string &of_points, const std::string &of_heat) {
-    std::ofstream(parts) << R"(<VTKFile type="PUnstructuredGrid" version="0.1"><PUnstructuredGrid>
-<PPointData><PDataArray Name="heat" )" +
-                                of_heat + R"(/></PPointData><PPoints><PDataArray )" + of_points +
-                                R"(/></PPoints><Piece Source="in.vtu"/></PUnstructuredGrid></VTKFile>)";
-    expect_failure(run_tool_for_a_minute({parts, out}), 1, "parts.pvtu: ");
-  };
-  const std::string points = R"(type="Float64" NumberOfComponents="3")", heat = R"(type="Float64")";
-  expect_refused(R"(type="Float32" NumberOfComponents="3")", heat);
-  expect_refused(R"(type="Float64" NumberOfComponents="4294967296")", heat);
-  expect_refused(points, R"(type="Int8")");
-  expect_refused(points, R"(type="Float64" NumberOfComponents="2")");
-  expect_refused(points, R"(type="String")");
-  std::string text = contents_of(in);
-  const std::size_t named = text.rfind("<DataArray", text.find("Name=\"heat\""));
-  text.replace(text.find("Float64", named), 7, "String");
-  std::ofstream(in, std::ios::binary) << text;
-  expect_failure(run_tool({in, out}), 1, "String");
-  EXPECT_FALSE(std::filesystem::exists(out));
-}
-
 TEST_F(Usage, FilesThatCannotBeWritten) {
   write_cube(folder / "in.vtk", {});
   const std::string in = folder / "in.vtk";
@@ -209,7 +105,14 @@ TEST_F(Usage, FilesThatCannotBeWritten) {
   expect_only_input();
 }
 
-// However it is spelled, and before INPUT is looked at.
+TEST_F(Usage, FilesThatAreProtected) {
+  if (geteuid() == 0) GTEST_SKIP() << "root may write to any file";
+  std::ofstream(folder / "out.vtu") << "kept";
+  std::filesystem::permissions(folder / "out.vtu", std::filesystem::perms::owner_read);
+  expect_failure(run_on({}), 1, "out.vtu: cannot be written: Permission denied");
+  EXPECT_EQ(contents_of(folder / "out.vtu"), "kept");
+}
+
 TEST_F(Usage, AReportDoesNotOverwriteTheRunsOtherFiles) {
   const std::string in = folder / "in.vtk", out = folder / "out.vtu";
   write_cube(in, {});
@@ -226,7 +129,6 @@ TEST_F(Usage, AReportDoesNotOverwriteTheRunsOtherFiles) {
   EXPECT_EQ(folder.names(), (std::vector<std::string>{"in.vtk", "link"}));
 }
 
-// Opening a pipe would wait for the other side, and a result would take the pipe's place.
 TEST_F(Usage, PipesAreNoFiles) {
   const std::string in = folder / "in.vtk", out = folder / "out.vtu", pipe = folder / "pipe.vtu";
   write_cube(in, {});
@@ -242,7 +144,6 @@ void expect_too_large(const Outcome &outcome, const std::string &path) {
   expect_failure(outcome, 1, path + ": cannot be written: " + std::strerror(EFBIG));
 }
 
-// As a full disk does, wherever it cuts the file. Edges are collapsed here, so that no other process needs files.
 TEST_F(Usage, AFileThatBecomesTooLarge) {
   write_cube(folder / "in.vtk", {});
   for (const std::string &out : {folder / "out.vtu", folder / "out.vtk"}) {
@@ -256,7 +157,6 @@ TEST_F(Usage, AFileThatBecomesTooLarge) {
   expect_only_input();
 }
 
-// What was asked for is to be printed, or else it failed.
 TEST_F(Usage, AStandardOutputThatIsFull) {
   write_cube(folder / "in.vtk", {});
   const std::string in = folder / "in.vtk", out = folder / "out.vtu";
@@ -279,7 +179,6 @@ TEST_F(Usage, AFieldThatIsNotThere) {
   expect_only_input();
 }
 
-// VTK writes names into the file as they are, which no one could read.
 TEST_F(Usage, NamesThatXmlCannotHave) {
   const std::pair<const char *, const char *> names[] = {
       {"a%22b", "a\"b"},   {"a%22%20b=%22c", "a\" b=\"c"}, {"a<b", "a<b"},
@@ -316,7 +215,6 @@ TEST_F(Usage, BadMeshes) {
   }
 }
 
-// VTK reads none from text: 0, 1, 2, 3 and nan are in base 64, after their size.
 TEST_F(Usage, AValueThatIsNone) {
   std::ofstream(folder / "in.vtu")
       << R"(<VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian">
@@ -340,46 +238,34 @@ TEST_F(Usage, AValueThatIsNone) {
   EXPECT_TRUE(std::filesystem::exists(folder / "pictures/report.html"));
 }
 
-// Of one cell: how many, and of each how many points, and these; and where the next cell's begin.
-TEST_F(Usage, FacesThatAreBroken) {
-  const auto run_with = [&](const std::string &faces, const std::string &end) {
-    std::ofstream(folder / "in.vtu") << R"(<VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian">
-<UnstructuredGrid><Piece NumberOfPoints="4" NumberOfCells="1">
-<PointData Scalars="heat"><DataArray type="Float64" Name="heat" format="ascii">0 1 2 3</DataArray></PointData><Points>
-<DataArray type="Float64" NumberOfComponents="3" format="ascii">0 0 0 1 0 0 0 1 0 0 0 1</DataArray></Points>
-<Cells><DataArray type="Int64" Name="connectivity" format="ascii">0 1 2 3</DataArray>
-<DataArray type="Int64" Name="offsets" format="ascii">4</DataArray>
-<DataArray type="UInt8" Name="types" format="ascii">42</DataArray>
-<DataArray type="Int64" Name="faces" format="ascii">)"
-                                     << faces
-                                     << R"(</DataArray><DataArray type="Int64" Name="faceoffsets" format="ascii">)"
-                                     << end << "</DataArray></Cells></Piece></UnstructuredGrid></VTKFile>";
-    return run_tool({folder / "in.vtu", folder / "out.vtu", "--target-ratio", "1"});
-  };
-  const std::string last = " 3 0 1 3 3 1 2 3 3 2 0 3";
-  for (const std::string &faces : {"5 3 0 1 2" + last, "3 3 0 1 2" + last, "99999999 3 0 1 2" + last,
-                                   "4 99999999 0 1 2" + last, "4 -3 0 1 2" + last, "-4 3 0 1 2" + last})
-    expect_failure(run_with(faces, "17"), 1, "the faces of polyhedra are broken");
-  for (const char *end : {"16", "18", "99999999", "0"}) expect_failure(run_with("4 3 0 1 2" + last, end), 1, "in.vtu");
-  expect_failure(run_with("4 3 0 1 7" + last, "17"), 1, "cell 0 names point 7, which the mesh does not have");
-  EXPECT_EQ(folder.names(), std::vector<std::string>{"in.vtu"});
-  const Outcome sound = run_with("4 3 0 1 2" + last, "17");
-  EXPECT_EQ(sound.status, 0) << sound.err;
-}
-
-TEST_F(Usage, AValueThatIsNoneInText) {
-  std::ofstream(folder / "in.vtk") << "# vtk DataFile Version 3.0\nno title\nASCII\nDATASET UNSTRUCTURED_GRID\n"
-                                      "POINTS 5 double\n0 0 0 1 0 0 0 1 0 0 0 1 0 0 -1\n"
-                                      "CELLS 2 10\n4 0 1 2 3\n4 0 2 1 4\nCELL_TYPES 2\n10\n10\n"
-                                      "POINT_DATA 5\nSCALARS heat double 1\nLOOKUP_TABLE default\n0 1 nan 3 4\n";
-  expect_failure(run_tool({folder / "in.vtk", folder / "out.vtu"}), 1, "VTK reads no nan or inf from text");
-}
-
 TEST_F(Usage, AnInterruptionLeavesNothingBehind) {
   Cube cube;
   cube.size = 30;
   write_cube(folder / "in.vtk", cube);
-  expect_failure(interrupt_tool({folder / "in.vtk", folder / "out.vtu"}), 1, "interrupted");
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    const std::vector<std::string> pictures = {"--pictures", folder / "p"};
+    std::vector<std::string> arguments = {folder / "in.vtk", folder / "out.vtu"};
+    if (signal == SIGHUP) arguments.insert(arguments.end(), pictures.begin(), pictures.end());
+    expect_failure(interrupt_tool(arguments, signal), 128 + signal, "interrupted");
+    expect_only_input();
+  }
+}
+
+TEST_F(Usage, ValuesThatAreMissing) {
+  const std::string in = folder / "in.vtk", out = folder / "out.vtu";
+  write_cube(in, {});
+  for (const std::string option : {"--report", "--pictures", "--field", "--steer", "--preset", "--rho"}) {
+    expect_failure(run_tool({in, out, option + "=", "--quiet"}), 2, option);
+    expect_failure(run_tool({option + "=", in, out}), 2, option);
+    expect_failure(run_tool({in, out, option, "--max-error=0.1"}), 2, option);
+  }
+  expect_failure(run_tool({in, out, "--report", "-"}), 2, "names no file");
+  expect_only_input();
+}
+
+TEST_F(Usage, StandardOutputIsNoFile) {
+  write_cube(folder / "in.vtk", {});
+  expect_failure(run_tool({folder / "in.vtk", folder / "out.vtu", "--report", "/dev/stdout"}), 1, "is not a file");
   expect_only_input();
 }
 

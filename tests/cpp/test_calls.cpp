@@ -243,8 +243,24 @@ TEST(Wrapper, WhatIsMovedFromIsNoContext) {
 TEST(Wrapper, AssigningMovesTheOptions) {
   tetlod::Context lod, other;
   other.set_rho(0.375);
+  bool is_gone = false;
+  lod.set_log([ends = std::shared_ptr<void>(nullptr, [&](void *) { is_gone = true; })](std::int32_t, const char *) {});
   lod = std::move(other);
   EXPECT_EQ(lod.get_real(TETLOD_OPT_RHO), 0.375);
+  EXPECT_EQ(other.get(), nullptr);
+  EXPECT_TRUE(is_gone);
+  tetlod::Context &itself = lod;
+  lod = std::move(itself);
+  EXPECT_EQ(lod.get_real(TETLOD_OPT_RHO), 0.375);
+}
+
+TEST(Wrapper, IntegersAreKnownByTheirWidth) {
+  EXPECT_EQ(tetlod::element_type<long long>, TETLOD_INT64);
+  EXPECT_EQ(tetlod::element_type<std::int64_t>, TETLOD_INT64);
+  EXPECT_EQ(tetlod::element_type<int>, TETLOD_INT32);
+  EXPECT_EQ(tetlod::element_type<unsigned>, 0);
+  EXPECT_EQ(tetlod::element_type<short>, 0);
+  EXPECT_EQ(tetlod::element_type<long double>, 0);
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 ! Texts, options, and how a context is made and heard, through the module tetlod: each procedure hands on what it gets.
 module settings_tests
+  use, intrinsic :: ieee_arithmetic, only: ieee_get_halting_mode, ieee_invalid, ieee_quiet_nan, ieee_set_halting_mode, &
+    ieee_value
   use, intrinsic :: iso_c_binding, only: c_associated, c_f_pointer, c_funloc, c_funptr, c_int32_t, c_loc, &
     c_null_ptr, c_ptr, c_size_t
   use, intrinsic :: iso_fortran_env, only: int32, int64, real32, real64
@@ -138,6 +140,20 @@ contains
     call expect(stat == TETLOD_ERR_OPTION .and. wide == 2_int64**40 + 1, "a real is no integer, int64")
     call lod%get_real(TETLOD_OPT_SEED, single, stat=stat)
     call expect(stat == TETLOD_ERR_OPTION .and. abs(single - 0.3) < tiny(single), "an integer is no real")
+    call lod%destroy()
+  end subroutine
+
+  ! Also where the host's invalid operations end it.
+  subroutine test_not_a_number()
+    type(tetlod_context) :: lod
+    integer :: stat
+    logical :: halts
+    call lod%create()
+    call ieee_get_halting_mode(ieee_invalid, halts)
+    call ieee_set_halting_mode(ieee_invalid, .true.)
+    call lod%set_real(TETLOD_OPT_TARGET_RATIO, ieee_value(0.0, ieee_quiet_nan), stat=stat)
+    call ieee_set_halting_mode(ieee_invalid, halts)
+    call expect(stat == TETLOD_ERR_OPTION, "real32 that is no number")
     call lod%destroy()
   end subroutine
 
@@ -305,6 +321,7 @@ program test_settings
   call test_setters()
   call test_getters()
   call test_presets()
+  call test_not_a_number()
   call test_allocator()
   call test_memory_limit()
   call test_remesher()

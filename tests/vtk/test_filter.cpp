@@ -275,6 +275,10 @@ TEST_F(Filter, FlaggedPointsSurvive) {
   ASSERT_GE(nearest, 0) << "no points";
   filter->GetOutput()->GetPoint(nearest, found);
   for (const double x : found) EXPECT_DOUBLE_EQ(x, 0.5);
+  auto *const left = vtkUnsignedCharArray::SafeDownCast(filter->GetOutput()->GetPointData()->GetArray("flags"));
+  ASSERT_NE(left, nullptr) << "another filter may take them";
+  for (vtkIdType v = 0; v < left->GetNumberOfTuples(); v++)
+    EXPECT_EQ(left->GetValue(v), v == nearest ? TETLOD_FLAG_KEEP : 0) << v;
   filter->SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "heat");
   expect_failure("heat", TETLOD_ERR_ARGUMENT);
 }

@@ -3,6 +3,8 @@
 #include <vtkPointData.h>
 
 #include <cmath>
+#include <set>
+#include <string>
 
 #include "colour_map.hpp"
 #include "filter_fixture.hpp"
@@ -71,6 +73,19 @@ TEST(Scale, AFieldThatIsConstantButForRoundingHasATick) {
   }
 }
 
+TEST(Scale, NumbersThatAreLargeBesideTheirRangeAreToldApart) {
+  EXPECT_EQ(number_text(1000000.25, {1e6, 1e6 + 1.48, false}), "1000000.25");
+  EXPECT_EQ(number_text(-2.00002, {-2.0001, -2, false}), "-2.00002");
+  EXPECT_EQ(number_text(1234567, {0, 2e6, false}), number_text(1234567));
+  EXPECT_EQ(number_text(7, {7, 7, false}), "7");
+  for (const double high : {1e6 + 1e-3, 1e6 + 1, 2e6}) {
+    const Scale scale{1e6, high, false};
+    std::set<std::string> texts;
+    for (const double tick : ticks_of(scale)) texts.insert(number_text(tick, scale));
+    EXPECT_EQ(texts.size(), ticks_of(scale).size()) << high;
+  }
+}
+
 TEST(Scale, NumbersAreShort) {
   EXPECT_EQ(number_text(0.000012), "1.2e-5");
   EXPECT_EQ(number_text(3.314e-7), "3.314e-7");
@@ -129,7 +144,7 @@ TEST(Raster, CoversWhatItShould) {
   for (const auto &sample : raster.samples()) {
     covered += sample.covered() ? 1 : 0;
     if (sample.covered()) {
-      EXPECT_EQ(sample.value, 7.0F);
+      EXPECT_NEAR(sample.value, 7, 1e-12);
     }
   }
   EXPECT_EQ(covered, raster.samples().size() / 2);
@@ -138,12 +153,18 @@ TEST(Raster, CoversWhatItShould) {
   EXPECT_EQ(image.pixel(15, 10)[3], 0);
 }
 
+TEST(Raster, ValuesMayBeLargeBesideTheirRange) {
+  Raster raster(20, 20, 1);
+  raster.draw_triangles(left_half(0, 1e9 + 0.25), straight());
+  EXPECT_NEAR(raster.samples()[10 * 20 + 5].value - 1e9, 0.25, 1e-6);
+}
+
 TEST(Raster, TheNearestIsSeenInWhateverOrder) {
   for (const bool near_first : {true, false}) {
     Raster raster(20, 20, 1);
     raster.draw_triangles(left_half(near_first ? 1 : 0, near_first ? 1 : 0), straight());
     raster.draw_triangles(left_half(near_first ? 0 : 1, near_first ? 0 : 1), straight());
-    EXPECT_EQ(raster.samples()[10 * 20 + 5].value, 1.0F);
+    EXPECT_NEAR(raster.samples()[10 * 20 + 5].value, 1, 1e-12);
   }
 }
 
@@ -168,21 +189,21 @@ TEST(Volume, HasTheFieldWhereTheMeshIs) {
   for (int c = 0; c < 8; c++) corners.push_back({double(c & 1), double(c >> 1 & 1), double(c >> 2 & 1)});
   fit(view, corners, 40, 40);
   constexpr int depths = 10;
-  Volume volume(view, corners, depths);
+  const Scale scale{0, 6, false};
+  Volume volume(view, corners, depths, scale);
   volume.fill({grid, grid->GetPointData()->GetScalars()});
   std::size_t inside = 0;
   for (int i = 0; i < 40 * 40 * depths; i++) {
-    const float value = volume.values()[std::size_t(i)];
-    if (!std::isfinite(value)) continue;
+    const float share = volume.shares()[std::size_t(i)];
+    if (!std::isfinite(share)) continue;
     const double x = (i / depths % 40 + 0.5 - 20) / view.pixels + 0.5,
                  y = (20 - 0.5 - i / depths / 40) / view.pixels + 0.5;
-    EXPECT_NEAR(double(value), x + 2 * y + 3 * (i % depths + Volume::place(i / depths % 40, i / depths / 40)) / depths,
-                1e-5);
+    EXPECT_NEAR(scale.value(double(share)),
+                x + 2 * y + 3 * (i % depths + Volume::place(i / depths % 40, i / depths / 40)) / depths, 1e-5);
     inside++;
   }
   EXPECT_NEAR(double(inside), 0.92 * 40 * 0.92 * 40 * depths, 0.06 * 40 * 40 * depths);
-  const Scale scale{0, 6, false};
-  const Image image = volume.image(opacity_by_rarity(volume, scale, 16), scale);
+  const Image image = volume.image(opacity_by_rarity(volume, 16));
   EXPECT_EQ(image.pixel(0, 0)[3], 0) << "beside the cube";
   EXPECT_GT(image.pixel(20, 20)[3], 30);
   EXPECT_GT(image.pixel(37, 3)[3], image.pixel(20, 20)[3]) << "rare values are denser: the corner's are the largest";

@@ -107,7 +107,7 @@ void Canvas::colour_bar(int x, int y, int width, const Scale &scale, const std::
   for (const double tick : with_ends(scale, kLeastGap / width)) {
     const double at = x + width * scale.share(tick);
     rectangle(at - 0.5, y + height, 1, 5, theme_.ink);
-    text(number_text(tick), at, y + height + 15, kTickSize, Align::centre);
+    text(number_text(tick, scale), at, y + height + 15, kTickSize, Align::centre);
   }
 }
 

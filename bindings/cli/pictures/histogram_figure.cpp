@@ -43,7 +43,7 @@ void draw_frame(Canvas &page, const Plot &plot, const std::string &label) {
   for (const double tick : ticks_of(plot.x)) {
     const double x = plot.left + kPlotWidth * plot.x.share(tick);
     page.rectangle(x - 0.5, plot.top + kPlotHeight, 1, 5, page.theme().ink);
-    page.text(number_text(tick), x, plot.top + kPlotHeight + 15, 14, Align::centre);
+    page.text(number_text(tick, plot.x), x, plot.top + kPlotHeight + 15, 14, Align::centre);
   }
   page.text(label, plot.left + kPlotWidth / 2.0, plot.top + kPlotHeight + 38, 16, Align::centre);
 }

@@ -138,12 +138,13 @@ std::string seconds_table(const tetlod_run_report &run, const ToolSeconds &tool)
 }
 
 std::string lead(const std::string &field, const tetlod_run_report &run, const tetlod_error_report &error) {
+  const Scale range{run.scalar_min, run.scalar_max};
   return "<p>" + count_text(run.tets_in) + " tets became <b>" + count_text(run.tets_out) + "</b>, " +
          share_of(run.tets_out, run.tets_in) + ", in " + formatted("%.3g", run.seconds_total) +
          " s. At the original's vertices the field <b>" + escaped(field) + "</b> is off by <b>" + percent(error.rms) +
          "</b> of its range (root mean square), at most by " + percent(error.max) + "; " + percent(error.outside) +
          " of the vertices lie outside of the simplified mesh and are not counted. Its range is " +
-         number_text(run.scalar_min) + " to " + number_text(run.scalar_max) + ".</p>\n";
+         number_text(run.scalar_min, range) + " to " + number_text(run.scalar_max, range) + ".</p>\n";
 }
 
 std::string figure_text(const DrawnFigure &figure) {

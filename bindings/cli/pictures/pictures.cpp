@@ -19,13 +19,13 @@ void write_whole(const std::string &path, const std::string &bytes) {
 }
 
 std::string drawn_on(const Figure &figure, const Theme &theme) {
+  stop_if_interrupted();
   Canvas page(figure.width, figure.height, theme);
   figure.draw(page);
   return png_of(page.image());
 }
 
 DrawnFigure drawn(const Figure &figure) {
-  stop_if_interrupted();
   return {figure.name, figure.title, figure.caption, drawn_on(figure, light_theme()), drawn_on(figure, dark_theme()),
           figure.width};
 }

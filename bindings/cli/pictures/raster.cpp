@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "interrupt.hpp"
+
 namespace cli {
 namespace {
 
@@ -64,13 +66,14 @@ void Raster::draw_triangle(const Vector corner[3], const double value[3], float 
       const float depth = static_cast<float>(wa * a[2] + wb * b[2] + wc * c[2]);
       Sample &sample = at(x, y);
       if (depth <= sample.depth) continue;
-      sample = {static_cast<float>(wa * value[0] + wb * value[1] + wc * value[2]), light, 0, depth};
+      sample = {wa * value[0] + wb * value[1] + wc * value[2], light, 0, depth};
     }
   }
 }
 
 void Raster::draw_triangles(const Shape &shape, const View &view, bool lit) {
   for (const auto &triangle : shape.triangles) {
+    stop_if_interrupted();
     Vector corner[3], projected[3];
     double value[3];
     for (std::size_t k = 0; k < 3; k++) {

@@ -14,7 +14,8 @@ namespace cli {
 class Raster {
  public:
   struct Sample {
-    float value = 0, light = 1, ink = 0;
+    double value = 0;
+    float light = 1, ink = 0;
     float depth = -std::numeric_limits<float>::infinity();  // larger is nearer
     bool covered() const { return depth > -std::numeric_limits<float>::infinity(); }
   };

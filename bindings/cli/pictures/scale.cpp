@@ -33,7 +33,7 @@ double nice_step(double raw) {
 
 std::vector<double> linear_ticks(const Scale &scale) {
   std::vector<double> ticks;
-  constexpr double told_apart = 1e-9;  // of the larger end: ticks have four digits
+  constexpr double told_apart = 1e-9;  // of the larger end
   if (!(scale.high - scale.low > told_apart * std::max(std::abs(scale.low), std::abs(scale.high)))) return {scale.low};
   const double step = nice_step((scale.high - scale.low) / 5);
   for (double k = std::ceil(scale.low / step - 1e-9); k * step <= scale.high * (1 + 1e-12) + 1e-9 * step; k++)
@@ -52,6 +52,20 @@ std::vector<double> logarithmic_ticks(const Scale &scale) {
     }
   }
   return ticks;
+}
+
+// That tell the numbers of a scale apart as well as four do where its ends are far apart; doubles have no more.
+int digits_of(const Scale &scale) {
+  constexpr int least = 4, most = 15;
+  const double part = (scale.high - scale.low) / std::max(std::abs(scale.low), std::abs(scale.high));
+  return part > 0 ? std::min(least + int(std::max(0.0, -std::floor(std::log10(part)) - 1)), most) : least;
+}
+
+std::string with_short_exponent(const std::string &number) {
+  const std::size_t exponent = number.find('e');
+  if (exponent == std::string::npos) return number;
+  const int power = std::atoi(number.c_str() + exponent + 1);  // without its sign and zeros
+  return number.substr(0, exponent + 1) + std::to_string(power);
 }
 
 }  // namespace
@@ -112,11 +126,15 @@ std::string number_text(double value) {
   std::snprintf(text, sizeof text, "%.4g", value);
   if (std::abs(std::strtod(text, nullptr)) >= 1e3 && std::abs(value) < 1e8)
     return count_text(std::llround(std::strtod(text, nullptr)));
-  std::string number(text);
-  const std::size_t exponent = number.find('e');
-  if (exponent == std::string::npos) return number;
-  const int power = std::atoi(number.c_str() + exponent + 1);  // without its sign and zeros
-  return number.substr(0, exponent + 1) + std::to_string(power);
+  return with_short_exponent(text);
+}
+
+std::string number_text(double value, const Scale &of) {
+  const int digits = digits_of(of);
+  if (digits == 4) return number_text(value);
+  char text[32];
+  std::snprintf(text, sizeof text, "%.*g", digits, value);
+  return with_short_exponent(text);
 }
 
 }  // namespace cli

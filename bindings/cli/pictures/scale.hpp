@@ -28,6 +28,8 @@ std::vector<double> with_ends(const Scale &scale, double least_gap);
 
 // Four digits: 1.234, 12,340, 3e-9.
 std::string number_text(double value);
+// The same, or more where numbers of the scale would look alike: 100000.25.
+std::string number_text(double value, const Scale &of);
 // A name of so many letters at most: of a longer one the beginning and the end.
 std::string shortened(const std::string &name, std::size_t most);
 // With thousands apart.

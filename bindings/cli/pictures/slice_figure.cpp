@@ -114,7 +114,7 @@ Image error_image(const Slice &slice, double range, const Scale &scale) {
   for (std::size_t i = 0; i < errors.samples().size(); i++) {
     Raster::Sample &sample = errors.samples()[i];
     const Raster::Sample &other = slice.simplified.samples()[i];
-    sample.value = static_cast<float>(100 * difference(sample, other, range));
+    sample.value = 100 * difference(sample, other, range);
     sample.depth = std::max(sample.depth, other.depth);
     sample.ink = 0;
     sample.light = 1;

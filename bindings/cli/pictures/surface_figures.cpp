@@ -120,7 +120,7 @@ Figure isosurface_figure(const Pair &pair, const View &from) {
     draw_captions(page, pair);
     int top = kHead;
     for (const Row &row : *rows) {
-      page.text(pair.label + " = " + number_text(row.value), kPageWidth / 2.0, top + 12, 16, Align::centre);
+      page.text(pair.label + " = " + number_text(row.value, pair.scale), kPageWidth / 2.0, top + 12, 16, Align::centre);
       for (int side = 0; side < 2; side++) {
         const IsoPanel &panel = row.sides[side];
         page.picture((*shadows)[std::size_t(side)], panel_left(side), top + kHead / 2);

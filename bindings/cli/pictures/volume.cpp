@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "colour_map.hpp"
+#include "interrupt.hpp"
 
 namespace cli {
 namespace {
@@ -43,10 +44,11 @@ Vector minus(const Vector &a, const Vector &b) { return {a[0] - b[0], a[1] - b[1
 
 }  // namespace
 
-Volume::Volume(const View &view, const std::vector<Vector> &points, int depths)
+Volume::Volume(const View &view, const std::vector<Vector> &points, int depths, const Scale &scale)
     : view_(view),
       depths_(depths),
-      values_(std::size_t(view.width) * std::size_t(view.height) * std::size_t(depths),
+      scale_(scale),
+      shares_(std::size_t(view.width) * std::size_t(view.height) * std::size_t(depths),
               std::numeric_limits<float>::quiet_NaN()) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const Vector &p : points) low = std::min(low, dot(p, view.toward)), high = std::max(high, dot(p, view.toward));
@@ -75,7 +77,8 @@ void Volume::fill_tet(const Vector corner[4], const double value[4]) {
         const Vector p = minus({x + 0.5, y + 0.5, z + place(x, y)}, corner[0]);
         const double a = dot(p, along_u) / whole, b = dot(p, along_v) / whole, c = dot(p, along_w) / whole;
         if (a < 0 || b < 0 || c < 0 || a + b + c > 1) continue;
-        at(x, y, z) = static_cast<float>((1 - a - b - c) * value[0] + a * value[1] + b * value[2] + c * value[3]);
+        const double here = (1 - a - b - c) * value[0] + a * value[1] + b * value[2] + c * value[3];
+        at(x, y, z) = static_cast<float>(scale_.share(here));
       }
     }
   }
@@ -92,6 +95,7 @@ void Volume::fill(const Sight &sight) {
   vtkIdType size = 0;
   const vtkIdType *ids = nullptr;
   for (vtkIdType c = 0; c < sight.grid->GetNumberOfCells(); c++) {
+    stop_if_interrupted();
     sight.grid->GetCells()->GetCellAtId(c, size, ids);
     if (size != 4) continue;
     Vector corner[4];
@@ -109,7 +113,7 @@ void Volume::fill(const Sight &sight) {
 
 double Volume::mean_part() const {
   std::size_t inside = 0, rays = 0;
-  for (auto ray = values_.begin(); ray != values_.end(); ray += depths_) {
+  for (auto ray = shares_.begin(); ray != shares_.end(); ray += depths_) {
     const auto samples = std::size_t(std::count_if(ray, ray + depths_, [](float v) { return std::isfinite(v); }));
     inside += samples;
     rays += samples > 0 ? 1 : 0;
@@ -117,17 +121,18 @@ double Volume::mean_part() const {
   return rays > 0 ? double(inside) / double(rays) / depths_ : 1;
 }
 
-Image Volume::image(const std::vector<double> &opacity, const Scale &scale) const {
+Image Volume::image(const std::vector<double> &opacity) const {
   Image image(view_.width, view_.height);
   const double bins = double(opacity.size());
   for (int y = 0; y < view_.height; y++) {
+    stop_if_interrupted();
     for (int x = 0; x < view_.width; x++) {
       const float *ray =
-          values_.data() + (std::size_t(y) * std::size_t(view_.width) + std::size_t(x)) * std::size_t(depths_);
+          shares_.data() + (std::size_t(y) * std::size_t(view_.width) + std::size_t(x)) * std::size_t(depths_);
       double clear = 1, sum[3] = {0, 0, 0};
       for (int z = depths_ - 1; z >= 0 && clear > 0.005; z--) {
         if (!std::isfinite(ray[z])) continue;
-        const double share = scale.share(double(ray[z]));
+        const double share = double(ray[z]);
         const double dense = opacity[std::min(std::size_t(share * bins), opacity.size() - 1)];
         const double part = clear * (1 - std::exp(-dense / depths_));
         const Colour colour = field_colour(share);
@@ -141,12 +146,12 @@ Image Volume::image(const std::vector<double> &opacity, const Scale &scale) cons
   return smoothed(image);
 }
 
-std::vector<double> opacity_by_rarity(const Volume &volume, const Scale &scale, int bins) {
+std::vector<double> opacity_by_rarity(const Volume &volume, int bins) {
   std::vector<double> counts(std::size_t(bins), 0), opacity;
   double whole = 0, mean = 0;
-  for (const float value : volume.values()) {
-    if (!std::isfinite(value)) continue;
-    counts[std::min(std::size_t(scale.share(double(value)) * bins), counts.size() - 1)]++;
+  for (const float share : volume.shares()) {
+    if (!std::isfinite(share)) continue;
+    counts[std::min(std::size_t(double(share) * bins), counts.size() - 1)]++;
     whole++;
   }
   for (const double count : counts) {

@@ -30,14 +30,14 @@ Figure volume_figure(const Pair &pair, const View &from) {
   View view = from;
   const Shape surface = surface_of(pair.original);
   fit(view, surface.points, kPanelWidth, kHeight);
-  Volume volume(view, surface.points, kDepths);
+  Volume volume(view, surface.points, kDepths, pair.scale);
   volume.fill(in_tets(pair.original));
-  const auto opacity = opacity_by_rarity(volume, pair.scale, kBins);
+  const auto opacity = opacity_by_rarity(volume, kBins);
   auto images = std::make_shared<std::array<Image, 2>>();
-  (*images)[0] = volume.image(opacity, pair.scale);
-  volume = Volume(view, surface.points, kDepths);
+  (*images)[0] = volume.image(opacity);
+  volume = Volume(view, surface.points, kDepths, pair.scale);
   volume.fill(pair.simplified);
-  (*images)[1] = volume.image(opacity, pair.scale);
+  (*images)[1] = volume.image(opacity);
   const auto shadows = std::make_shared<std::array<Image, 2>>(
       std::array<Image, 2>{shadow_of(surface, view), shadow_of(surface_of(pair.simplified), view)});
   Figure figure{"volume", "Inside", "", kPageWidth, kHead + kHeight + kFoot, {}};
