@@ -83,6 +83,15 @@ void AdaptiveMesh<m>::replace(Span<const std::int32_t> old, Span<const Tet> fres
   }
 }
 
+template <std::size_t m>
+void AdaptiveMesh<m>::measure_all(double fraction, Job &job) {
+  job.parallel.for_blocks(tets.size(), 256, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; t++)
+      if (alive(std::int32_t(t))) measure(std::int32_t(t));
+    job.poll(fraction);
+  });
+}
+
 template class AdaptiveMesh<1>;
 template class AdaptiveMesh<2>;
 template class AdaptiveMesh<3>;

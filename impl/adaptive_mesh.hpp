@@ -85,6 +85,8 @@ class AdaptiveMesh : public TetComplex {
 
   /// The error of t, summed again.
   void measure(std::int32_t t);
+  /// That of each.
+  void measure_all(double fraction, Job &job);
   double total_error() const;
 
   double error_of(Span<const std::int32_t> some) const {

@@ -84,9 +84,7 @@ class CracksOfMesh {
   /// visit(first, last) of the uses of each face; excluded: of each tet.
   template <class Visit>
   void for_faces(Span<const std::uint8_t> excluded, const Visit &visit) const {
-    MeshView view{mesh_.points, {}, mesh_.tets};
-    view.fields = 0;
-    for_each_face(view, excluded, job_, visit);
+    for_each_face(without_fields(mesh_.points, mesh_.tets), excluded, job_, visit);
   }
 
   /// Of each point, how many are at its place.
@@ -124,14 +122,13 @@ class CracksOfMesh {
   }
 
   Face face_of(const FaceUse &use) const {
-    const int *corner = tet_face[use.corner()];
     const Tet &t = mesh_.tets[use.tet()];
-    Triangle points{t[std::size_t(corner[0])], t[std::size_t(corner[1])], t[std::size_t(corner[2])]};
-    if (det(at(t[0]), at(t[1]), at(t[2]), at(t[3])) < 0) std::swap(points[1], points[2]);
+    Triangle points = face_opposite(t, use.corner());
+    if (six_volume(mesh_.points, t) < 0) std::swap(points[1], points[2]);
     return {points, std::int32_t(use.tet())};
   }
 
-  Vec3 outward(const Triangle &t) const { return area_vector(at(t[0]), at(t[1]), at(t[2])); }
+  Vec3 outward(const Triangle &t) const { return area_vector(mesh_.points, t); }
 
   /// The same triangles where hexahedra were split in one way on both sides, others that cross them where not.
   void find_pairs() {
@@ -316,11 +313,10 @@ class CracksOfMesh {
       job_.poll_at(i, 0.9);
       const Tet &t = mesh_.tets[i];
       if (std::none_of(t.begin(), t.end(), is_at_crack) || !is_usable(t)) continue;
-      const double six_volumes = std::abs(det(at(t[0]), at(t[1]), at(t[2]), at(t[3])));
+      const double six_volumes = std::abs(six_volume(mesh_.points, t));
       for (std::size_t k = 0; k < 4; k++) {
-        const auto of_face = [&](std::size_t j) { return at(t[std::size_t(tet_face[k][j])]); };
         double &least = room[std::size_t(representative_[std::size_t(t[k])])];
-        least = std::min(least, six_volumes / glm::length(area_vector(of_face(0), of_face(1), of_face(2))));
+        least = std::min(least, six_volumes / glm::length(area_vector(mesh_.points, face_opposite(t, k))));
       }
     }
     return room;

@@ -14,8 +14,8 @@ namespace {
 /// Their sides are numbered with 32 bits.
 constexpr std::size_t most_triangles = (std::size_t(1) << 31) / 3 - 1;
 
-Triangle outward_face(const Tet &t, int k, int sign) {
-  Triangle face{t[std::size_t(tet_face[k][0])], t[std::size_t(tet_face[k][1])], t[std::size_t(tet_face[k][2])]};
+Triangle outward_face(const Tet &t, std::size_t k, int sign) {
+  Triangle face = face_opposite(t, k);
   if (sign < 0) std::swap(face[1], face[2]);
   // From its lowest vertex on, so that the order of the tet's corners leaves no trace.
   std::rotate(face.begin(), std::min_element(face.begin(), face.end()), face.end());
@@ -41,7 +41,7 @@ void add_boundary_face(const MeshView &mesh, const FaceUse &f, Found &found) {
     found.flat.push_back(std::int32_t(f.tet()));
     return;
   }
-  found.triangles.push_back(outward_face(t, int(f.corner()), sign));
+  found.triangles.push_back(outward_face(t, f.corner(), sign));
   found.tet_of.push_back(std::int32_t(f.tet()));
 }
 

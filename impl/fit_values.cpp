@@ -220,11 +220,7 @@ class Fit {
 template <std::size_t m>
 void fit_values(int steps, Job &job, AdaptiveMesh<m> &mesh) {
   Fit<m>(mesh, job).solve(steps);
-  job.parallel.for_blocks(mesh.tets.size(), block, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; t++)
-      if (mesh.alive(std::int32_t(t))) mesh.measure(std::int32_t(t));
-    job.poll(0.5);
-  });
+  mesh.measure_all(0.5, job);
 }
 
 template void fit_values(int, Job &, AdaptiveMesh<1> &);

@@ -40,12 +40,6 @@ FlatTets::FlatTets(NumberedTets &&solid, Job &job)
   turn_upright();
 }
 
-MeshView FlatTets::view() const {
-  MeshView view{points, {}, tets};
-  view.fields = 0;
-  return view;
-}
-
 void FlatTets::add(const Tet &tet, std::int32_t beside) {
   flat_.push_back({std::int32_t(tets.size()), tet});
   tets.push_back(tet);
@@ -77,8 +71,7 @@ void FlatTets::find_outward_boundary(Array<Triangle> &triangles, Array<std::int3
     job_.poll_at(t, 0.9);
     for (std::size_t k = 0; k < 4; k++) {
       if (neighbours[t][k] >= 0) continue;
-      const auto corner = [&](int i) { return tets[t][std::size_t(tet_face[k][i])]; };
-      triangles.push_back({corner(0), corner(1), corner(2)});
+      triangles.push_back(face_opposite(tets[t], k));
       tet_of_triangle.push_back(std::int32_t(t));
     }
   }
@@ -240,7 +233,7 @@ double FlatTets::worst_shape2(Span<const Tet> fresh) const {
   double worst = 1;
   for (const Tet &t : fresh) {
     const auto at = [&](std::size_t k) { return points[std::size_t(t[k])]; };
-    const bool is_positive = det(at(0), at(1), at(2), at(3)) > 0;
+    const bool is_positive = six_volume(points, t) > 0;
     worst = std::min(worst, is_positive ? shape2(at(0), at(1), at(2), at(3)) : 0);
   }
   return worst;

@@ -10,7 +10,7 @@ class FlatTets : private TetComplex {
   /// Of these the others, which are turned upright; the boundary is none any more.
   FlatTets(NumberedTets &&solid, Job &job);
 
-  MeshView view() const;
+  MeshView view() const { return without_fields(points, tets); }
   std::size_t count() const { return tets.size(); }
   /// With the number of another.
   void add(const Tet &tet, std::int32_t beside);

@@ -9,8 +9,7 @@ Array<std::pair<std::int32_t, std::int32_t>> find_folded_back(const NumberedTets
   const Boundary &boundary = tets.boundary;
   const TriangleCorners corners(tets.points.size(), boundary.triangles, job);
   const auto normal = [&](std::int32_t triangle) {
-    const auto [a, b, c] = boundary.triangles[std::size_t(triangle)];
-    return area_vector(tets.points[std::size_t(a)], tets.points[std::size_t(b)], tets.points[std::size_t(c)]);
+    return area_vector(tets.points, boundary.triangles[std::size_t(triangle)]);
   };
   Array<std::pair<std::int32_t, std::int32_t>> found(&job.memory);
   for (std::size_t v = 0; v < tets.points.size(); v++) {

@@ -23,6 +23,10 @@ inline double six_volume(Span<const Vec3> points, const Tet &t) {
 /// Twice the area vector of a triangle.
 inline Vec3 area_vector(const Vec3 &a, const Vec3 &b, const Vec3 &c) { return glm::cross(b - a, c - a); }
 
+inline Vec3 area_vector(Span<const Vec3> points, const Triangle &t) {
+  return area_vector(points[std::size_t(t[0])], points[std::size_t(t[1])], points[std::size_t(t[2])]);
+}
+
 /// Exact, as long as nothing becomes subnormal.
 inline Vec3 times_power_of_two(const Vec3 &p, int exponent) {
   return {std::ldexp(p.x, exponent), std::ldexp(p.y, exponent), std::ldexp(p.z, exponent)};

@@ -124,11 +124,10 @@ struct Division {
     for (std::int32_t whole : old)
       for (std::size_t k = 0; k < 4; k++) {
         Tet part = mesh.tets[std::size_t(whole)];
-        const int *face = tet_face[k];
         if (corners.has(std::exchange(part[k], v)))
           fresh.push_back(part);
         else if (mesh.neighbours[std::size_t(whole)][k] < 0)
-          faces.push_back({part[std::size_t(face[0])], part[std::size_t(face[1])], part[std::size_t(face[2])]});
+          faces.push_back(face_opposite(part, k));
       }
   }
 

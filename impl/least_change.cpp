@@ -28,7 +28,7 @@ void add_gradients(const MeshView &mesh, const Tet &t, Moments &moments) {
   const auto p = [&](int k) { return mesh.points[std::size_t(t[std::size_t(k)])]; };
   const auto value = [&](int k, std::size_t i) { return mesh.values<m>()[std::size_t(t[std::size_t(k)])][i]; };
   const TetFrame frame(p(0), p(1), p(2), p(3));
-  const double volume = std::abs(det(p(0), p(1), p(2), p(3)));
+  const double volume = std::abs(six_volume(mesh.points, t));
   for (std::size_t i = 0; i < m; i++) {
     const Vec3 g = mesh.scales.weighted[i] * frame.gradient(value(0, i), value(1, i), value(2, i), value(3, i));
     if (std::isfinite(volume * glm::dot(g, g))) moments += volume * glm::outerProduct(g, g);

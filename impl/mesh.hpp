@@ -62,6 +62,12 @@ struct MeshView {
   }
 };
 
+inline MeshView without_fields(Span<const Vec3> points, Span<const Tet> tets) {
+  MeshView mesh{points, {}, tets};
+  mesh.fields = 0;
+  return mesh;
+}
+
 inline bool has_repeated_vertex(const Tet &t) {
   return t[0] == t[1] || t[0] == t[2] || t[0] == t[3] || t[1] == t[2] || t[1] == t[3] || t[2] == t[3];
 }
@@ -69,6 +75,11 @@ inline bool has_repeated_vertex(const Tet &t) {
 /// The corners of the face opposite corner k, seen counter-clockwise from outside a tet with
 /// det(p1 - p0, p2 - p0, p3 - p0) > 0.
 constexpr int tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+
+inline Triangle face_opposite(const Tet &t, std::size_t corner) {
+  const int *const face = tet_face[corner];
+  return {t[std::size_t(face[0])], t[std::size_t(face[1])], t[std::size_t(face[2])]};
+}
 
 inline bool has(const Tet &t, std::int32_t v) { return (t[0] == v) | (t[1] == v) | (t[2] == v) | (t[3] == v); }
 inline bool has(const Triangle &t, std::int32_t v) { return (t[0] == v) | (t[1] == v) | (t[2] == v); }

@@ -17,13 +17,13 @@ constexpr double lengths[] = {1, 0.4, 0.15};
 constexpr double least_part = 0.999, least_gain = 0.005;
 
 template <std::size_t m>
-struct Move {
+struct VertexMove {
   /// Where a probe will be.
   struct Home {
     std::int32_t probe, tet;
   };
   using allocator_type = std::pmr::polymorphic_allocator<Home>;
-  explicit Move(allocator_type memory) : homes(memory) {}
+  explicit VertexMove(allocator_type memory) : homes(memory) {}
 
   std::int32_t vertex = -1;
   Vec3 point{0};
@@ -37,7 +37,7 @@ struct Move {
 template <std::size_t m>
 class MovedStar {
  public:
-  MovedStar(const AdaptiveMesh<m> &mesh, const Move<m> &move) : mesh_(mesh), star_(move.old) {
+  MovedStar(const AdaptiveMesh<m> &mesh, const VertexMove<m> &move) : mesh_(mesh), star_(move.old) {
     for (std::size_t i = 0; i < star_.size() && positive_; i++) {
       const Tet &tet = mesh.tets[std::size_t(star_[i])];
       const auto corner = std::size_t(std::find(tet.begin(), tet.end(), move.vertex) - tet.begin());
@@ -55,7 +55,7 @@ class MovedStar {
 
   /// Whether the sum of squares is less than `limit`; the errors and homes are written to `move` then. Most probes stay
   /// in their tets.
-  bool is_less(double limit, Move<m> &move) const {
+  bool is_less(double limit, VertexMove<m> &move) const {
     move.homes.clear();
     std::fill(move.error, move.error + star_.size(), 0.0);
     double sum = 0;
@@ -96,7 +96,7 @@ class MoveFinder {
   MoveFinder(const StarLists &tets, double least, const AdaptiveMesh<m> &mesh)
       : tets_(tets), least_(least), mesh_(mesh) {}
 
-  bool find(std::int32_t v, Move<m> &move) const {
+  bool find(std::int32_t v, VertexMove<m> &move) const {
     move.old.clear();
     for (std::int32_t t : tets_.of(v))
       if (!move.old.push(t)) return false;
@@ -189,7 +189,7 @@ class MoveFinder {
 };
 
 template <std::size_t m>
-void make_move(const Move<m> &move, AdaptiveMesh<m> &mesh) {
+void make_move(const VertexMove<m> &move, AdaptiveMesh<m> &mesh) {
   mesh.points[std::size_t(move.vertex)] = move.point;
   mesh.values[std::size_t(move.vertex)] = move.values;
   for (std::size_t i = 0; i < move.old.size(); i++) {
@@ -212,9 +212,9 @@ void move_vertices(std::size_t first, Job &job, AdaptiveMesh<m> &mesh) {
   const StarLists tets(Span<const Tet>(mesh.tets), mesh.points.size(), job);
   const Array<std::size_t> batches = batches_apart(mesh, tets, job, items);
   const MoveFinder<m> finder(tets, quiet * 4 * mesh.total_error() / double(mesh.points.size()), mesh);
-  sweep<Move<m>>(
-      items, batches, job, mesh, [&](std::int32_t v, Move<m> &move) { return finder.find(v, move); },
-      [&](const Move<m> &move) { make_move(move, mesh); });
+  sweep<VertexMove<m>>(
+      items, batches, job, mesh, [&](std::int32_t v, VertexMove<m> &move) { return finder.find(v, move); },
+      [&](const VertexMove<m> &move) { make_move(move, mesh); });
 }
 
 template void move_vertices(std::size_t, Job &, AdaptiveMesh<1> &);

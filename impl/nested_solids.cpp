@@ -36,7 +36,7 @@ class Nesting {
   const Vec3 &point(std::int32_t triangle, std::size_t k) const {
     return surface_.points[std::size_t(surface_.triangles[std::size_t(triangle)][k])];
   }
-  Vec3 normal(std::int32_t t) const { return area_vector(point(t, 0), point(t, 1), point(t, 2)); }
+  Vec3 normal(std::int32_t t) const { return area_vector(surface_.points, surface_.triangles[std::size_t(t)]); }
   Vec3 middle(std::int32_t t) const { return (point(t, 0) + point(t, 1) + point(t, 2)) / 3.0; }
 
   /// The triangle of each component that is the widest across x.

@@ -19,11 +19,7 @@ struct NumberedTets {
     std::iota(number.begin(), number.end(), 0);
   }
 
-  MeshView view() const {
-    MeshView view{points, {}, tets};
-    view.fields = 0;
-    return view;
-  }
+  MeshView view() const { return without_fields(points, tets); }
 
   /// Anew. False: they have none, or not all of them.
   bool find_boundary(Job &job) {

@@ -283,11 +283,7 @@ void place_probes(const MeshView &original, const ProbeOptions &options, Job &jo
     job.poll_at(i, 0.2);
     if (home[i] >= 0) mesh.put_probe(std::int32_t(i), home[i]);
   }
-  job.parallel.for_blocks(mesh.tets.size(), block, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; t++)
-      if (mesh.alive(std::int32_t(t))) mesh.measure(std::int32_t(t));
-    job.poll(0.2);
-  });
+  mesh.measure_all(0.2, job);
 }
 
 template void place_probes(const MeshView &, const ProbeOptions &, Job &, AdaptiveMesh<1> &);

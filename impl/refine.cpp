@@ -185,9 +185,7 @@ class Refinement {
       Tet tet = mesh_.tets[t];
       for (std::int32_t &v : tet) v = number[std::size_t(v)];
       for (std::size_t k = 0; k < 4; k++)
-        if (mesh_.neighbours[t][k] < 0)
-          out_.boundary.push_back(
-              {tet[std::size_t(tet_face[k][0])], tet[std::size_t(tet_face[k][1])], tet[std::size_t(tet_face[k][2])]});
+        if (mesh_.neighbours[t][k] < 0) out_.boundary.push_back(face_opposite(tet, k));
       out_.tets.push_back(tet);
     }
   }

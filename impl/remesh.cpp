@@ -108,10 +108,10 @@ class Climb {
 };
 
 /// All parts, as many at once as there are threads. What becomes of one does not depend on the others.
-class Remeshing {
+class RemeshingOfParts {
  public:
-  Remeshing(const Surface &surface, const SurfaceFacts &facts, Span<const Vec3> samples, const RemeshParts &parts,
-            Ladder ladder, Worker &worker, Job &job)
+  RemeshingOfParts(const Surface &surface, const SurfaceFacts &facts, Span<const Vec3> samples,
+                   const RemeshParts &parts, Ladder ladder, Worker &worker, Job &job)
       : surface_(surface),
         facts_(facts),
         samples_(samples),
@@ -130,9 +130,9 @@ class Remeshing {
     for (std::size_t p = 0; p < parts.count(); p++) results_.emplace_back(job.memory);
   }
   /// After an exception calls may be under way.
-  ~Remeshing() { worker_.abandon(); }
-  Remeshing(const Remeshing &) = delete;
-  Remeshing &operator=(const Remeshing &) = delete;
+  ~RemeshingOfParts() { worker_.abandon(); }
+  RemeshingOfParts(const RemeshingOfParts &) = delete;
+  RemeshingOfParts &operator=(const RemeshingOfParts &) = delete;
 
   RemeshResult run(const std::function<void()> &meanwhile) {
     for (std::size_t process = 0; process < climbs_.size(); process++) start(process);
@@ -206,7 +206,7 @@ void remesh(const Surface &surface, Span<const Vec3> samples, Worker &worker, Jo
   check_samples(samples);
   const SurfaceFacts facts = check_surface(surface, job);
   const RemeshParts parts(surface, facts, samples, points_at_once, job);
-  result = Remeshing(surface, facts, samples, parts, ladder, worker, job).run(meanwhile);
+  result = RemeshingOfParts(surface, facts, samples, parts, ladder, worker, job).run(meanwhile);
 }
 
 }  // namespace tetlod

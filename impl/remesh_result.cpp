@@ -15,11 +15,6 @@ namespace {
 
 constexpr std::int32_t nobody = -1;  // number of a Steiner point; slot of a point that is not there
 
-FaceKey face_of(const Tet &tet, int opposite) {
-  const auto corner = [&](int k) { return tet[std::size_t(tet_face[opposite][k])]; };
-  return {corner(0), corner(1), corner(2)};
-}
-
 bool points_unchanged(const RemeshInput &input, const TetgenReply &reply) {
   return reply.points.size() >= input.points.size() &&
          std::equal(input.points.begin(), input.points.end(), reply.points.begin());
@@ -47,7 +42,7 @@ Array<unsigned char> vote(const RemeshInput &input, const TetgenReply &reply, do
     job.poll_at(i, fraction);
     unsigned char &region = votes[std::size_t(reply.regions[i])];
     for (int k = 0; k < 4; k++) {
-      const FaceKey face = face_of(reply.tets[i], k);
+      const FaceKey face(face_opposite(reply.tets[i], std::size_t(k)));
       if (contains(boundary, face.vertex, face.key)) region |= material;
       if (contains(boundary, face.vertex, face.other_side())) region |= empty;
     }
@@ -92,7 +87,7 @@ std::string check_faces(const RemeshInput &input, const TetgenReply &reply, doub
     for (std::size_t i = 0; i < reply.tets.size(); i++) {
       job.poll_at(i, fraction);
       for (int k = 0; k < 4; k++) {
-        const FaceKey face = face_of(reply.tets[i], k);
+        const FaceKey face(face_opposite(reply.tets[i], std::size_t(k)));
         visit(face.vertex, face.key);
       }
     }

@@ -9,7 +9,7 @@ namespace {
 /// Stars with more error than so many prices have no vertex to spare.
 constexpr double busy = 20;
 
-struct Collapse {
+struct VertexRemoval {
   std::int32_t vertex;
   Cavity old;  ///< the star of the vertex that goes
   Filling fresh;
@@ -21,7 +21,7 @@ class CollapseFinder {
  public:
   CollapseFinder(double price, const AdaptiveMesh<m> &mesh) : price_(price), mesh_(mesh) {}
 
-  bool find(std::int32_t v, Collapse &collapse) const {
+  bool find(std::int32_t v, VertexRemoval &collapse) const {
     if (mesh_.tet_of[std::size_t(v)] < 0 || !mesh_.star(v, collapse.old)) return false;
     collapse.vertex = v;
     const double old_error = mesh_.error_of(collapse.old);
@@ -67,9 +67,9 @@ void remove_vertices(double price, Job &job, AdaptiveMesh<m> &mesh) {
   const CollapseFinder finder(price, mesh);
   const Array<std::size_t> batches =
       batches_apart(mesh, StarLists(Span<const Tet>(mesh.tets), mesh.points.size(), job), job, items);
-  sweep<Collapse>(
-      items, batches, job, mesh, [&](std::int32_t v, Collapse &collapse) { return finder.find(v, collapse); },
-      [&](const Collapse &collapse) {
+  sweep<VertexRemoval>(
+      items, batches, job, mesh, [&](std::int32_t v, VertexRemoval &collapse) { return finder.find(v, collapse); },
+      [&](const VertexRemoval &collapse) {
         mesh.replace(collapse.old, collapse.fresh, made);
         mesh.tet_of[std::size_t(collapse.vertex)] = -1;
       });

@@ -11,10 +11,6 @@ namespace {
 /// A tet with this part of the usual shape is flat.
 constexpr double flat_beside_usual = 0.01;
 
-double volume6(const SolidComplex &mesh, const Tet &t) {
-  return det(mesh.point(t[0]), mesh.point(t[1]), mesh.point(t[2]), mesh.point(t[3]));
-}
-
 }  // namespace
 
 SolidComplex::SolidComplex(SolidInOrder &&solid, Job &job)
@@ -49,14 +45,11 @@ double SolidComplex::usual_shape2(Memory &memory) const {
   return *middle;
 }
 
-Vec3 SolidComplex::normal(std::int32_t triangle) const {
-  const Triangle &t = triangles[std::size_t(triangle)];
-  return area_vector(point(t[0]), point(t[1]), point(t[2]));
-}
+Vec3 SolidComplex::normal(std::int32_t triangle) const { return area_vector(points, triangles[std::size_t(triangle)]); }
 
 double SolidComplex::volume(Job &job) const {
   const Array<double> parts =
-      parts_of(tets.size(), 0.0, job, [&](double &sum, std::size_t t) { sum += volume6(*this, tets[t]); });
+      parts_of(tets.size(), 0.0, job, [&](double &sum, std::size_t t) { sum += six_volume(points, tets[t]); });
   return std::accumulate(parts.begin(), parts.end(), 0.0) / 6;
 }
 

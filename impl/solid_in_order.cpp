@@ -33,8 +33,7 @@ Array<std::int32_t> first_vertices(const MeshView &original, Span<const std::int
 
 Tet upright(Tet tet, Span<const std::int32_t> number, Span<const Vec3> points) {
   for (std::int32_t &v : tet) v = number[std::size_t(v)];
-  const auto p = [&](std::size_t k) { return points[std::size_t(tet[k])]; };
-  if (orientation(p(0), p(1), p(2), p(3)) < 0) std::swap(tet[2], tet[3]);
+  if (orientation(points, tet) < 0) std::swap(tet[2], tet[3]);
   return tet;
 }
 

@@ -41,8 +41,7 @@ bool make_positive(Span<const Vec3> points, Tet &tet) {
   const auto at = [&](std::int32_t corner) { return points[std::size_t(corner)]; };
   for (const auto &order : even) {
     for (std::size_t k = 0; k < 4; k++) tet[k] = old[order[k]];
-    if (looks_positive(at(tet[0]), at(tet[1]), at(tet[2]), at(tet[3])))
-      return orientation(at(tet[0]), at(tet[1]), at(tet[2]), at(tet[3])) > 0;
+    if (looks_positive(at(tet[0]), at(tet[1]), at(tet[2]), at(tet[3]))) return orientation(points, tet) > 0;
   }
   return false;
 }

@@ -7,7 +7,7 @@
 namespace tetlod {
 
 Triangle sorted_face(const Tet &t, int k) {
-  Triangle f{t[std::size_t(tet_face[k][0])], t[std::size_t(tet_face[k][1])], t[std::size_t(tet_face[k][2])]};
+  Triangle f = face_opposite(t, std::size_t(k));
   if (f[0] > f[1]) std::swap(f[0], f[1]);
   if (f[1] > f[2]) std::swap(f[1], f[2]);
   if (f[0] > f[1]) std::swap(f[0], f[1]);

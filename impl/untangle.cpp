@@ -48,8 +48,8 @@ bool are_oriented(Span<const Triangle> triangles, Job &job) {
 
 /// Of the face's vertices, as they are seen from outside a positive tet, in ascending order.
 bool is_even(const Tet &t, std::size_t corner) {
-  const auto v = [&](int k) { return t[std::size_t(tet_face[corner][k])]; };
-  return ((v(0) < v(1)) != (v(1) < v(2))) != (v(0) < v(2));
+  const auto [a, b, c] = face_opposite(t, corner);
+  return ((a < b) != (b < c)) != (a < c);
 }
 
 /// Tets as their neighbours wind them: an even order of the corners is upright where most of the volume is.
@@ -189,14 +189,12 @@ class Untangling {
   /// changes with them in proportion. False: nothing of it may be moved.
   bool straighten(std::int32_t tet) {
     const Tet &t = tets_[std::size_t(tet)];
-    const auto at = [&](std::size_t k) -> Vec3 & { return points_[std::size_t(t[k])]; };
     const double least = least_of(tet), missing = least - six_volume(points_, t);
     if (missing <= 0.5 * least) return true;
     Vec3 change[4];  // of the volume, by a move
     double all = 0;
     for (std::size_t k = 0; k < 4; k++) {
-      const int *face = tet_face[k];
-      change[k] = -area_vector(at(std::size_t(face[0])), at(std::size_t(face[1])), at(std::size_t(face[2])));
+      change[k] = -area_vector(points_, face_opposite(t, k));
       all += mobility(t[k]) * length2(change[k]);
     }
     if (!(all > 0)) return false;

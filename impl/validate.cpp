@@ -175,12 +175,8 @@ class Inspector {
 
   /// Both tets on one side of their face.
   bool overlap(const FaceUse &a, const FaceUse &b) const {
-    const Tet &t = tets_[a.tet()];
-    const int *face = tet_face[a.corner()];
-    const auto side_of = [&](std::int32_t v) {
-      return orientation(points_[std::size_t(t[std::size_t(face[0])])], points_[std::size_t(t[std::size_t(face[1])])],
-                         points_[std::size_t(t[std::size_t(face[2])])], points_[std::size_t(v)]);
-    };
+    const auto [p, q, r] = face_opposite(tets_[a.tet()], a.corner());
+    const auto side_of = [&, p = p, q = q, r = r](std::int32_t v) { return orientation(points_, Tet{p, q, r, v}); };
     const int first = side_of(opposite(a));
     return first != 0 && first == side_of(opposite(b));
   }

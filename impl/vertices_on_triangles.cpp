@@ -44,7 +44,7 @@ class VerticesOnTriangles {
   };
 
   const Vec3 &at(std::int32_t v) const { return points_[std::size_t(v)]; }
-  Vec3 normal(const Triangle &t) const { return area_vector(at(t[0]), at(t[1]), at(t[2])); }
+  Vec3 normal(const Triangle &t) const { return area_vector(points_, t); }
 
   VertexOnTriangle middlemost_on(std::int32_t t) const {
     const Triangle &triangle = triangles_[std::size_t(t)];

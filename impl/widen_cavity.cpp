@@ -60,13 +60,8 @@ class GrowingCavity {
     for (std::int32_t t : tets) {
       const Tet &tet = mesh_.tets[std::size_t(t)];
       edge_.cavity.push(t);
-      add_outer(vertices_opposite(tet, std::size_t(std::find(tet.begin(), tet.end(), end) - tet.begin())), t);
+      add_outer(face_opposite(tet, std::size_t(std::find(tet.begin(), tet.end(), end) - tet.begin())), t);
     }
-  }
-
-  static Triangle vertices_opposite(const Tet &t, std::size_t corner) {
-    const auto &face = tet_face[corner];
-    return {t[std::size_t(face[0])], t[std::size_t(face[1])], t[std::size_t(face[2])]};
   }
 
   void add_outer(const Triangle &vertices, std::int32_t tet) { outer_.push({vertices, tet, is_seen(vertices)}); }
@@ -87,7 +82,7 @@ class GrowingCavity {
     if (taken_++ == most_beyond || !blocks_.holds(tet, edge_.stays)) return false;
     edge_.cavity.push(t);
     for (std::size_t k = 0; k < 4; k++) {
-      const Triangle other = vertices_opposite(tet, k);
+      const Triangle other = face_opposite(tet, k);
       if (!has_all(other, vertices) && !remove(other)) add_outer(other, t);
     }
     return true;

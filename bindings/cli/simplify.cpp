@@ -3,6 +3,8 @@
 #include <vtkCommand.h>
 #include <vtkDataObject.h>
 
+#include <set>
+
 #include "cell_means.hpp"
 #include "failure.hpp"
 #include "interrupt.hpp"
@@ -46,8 +48,13 @@ vtkUnstructuredGrid *simplify(vtkTetlodSimplify &filter, vtkUnstructuredGrid *or
   const std::string field = point_data_for(arguments.field, *original, notes);
   if (!field.empty()) filter.SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, field.c_str());
   filter.ClearSteeringArrays();  // their weights are known to be good; what they are is known now
-  for (const auto &[name, weight] : arguments.steer)
-    filter.AddSteeringArray(point_data_for(name, *original, notes).c_str(), weight);
+  std::set<std::string> steering;
+  for (const auto &[name, weight] : arguments.steer) {
+    const std::string point_data = point_data_for(name, *original, notes);
+    if (!steering.insert(point_data).second)  // a magnitude by its own name, too
+      throw Failure("--steer: field '" + point_data + "' is given twice", kWrongUsage);
+    filter.AddSteeringArray(point_data.c_str(), weight);
+  }
   filter.AddObserver(vtkCommand::ProgressEvent, &bar, &ProgressBar::on_progress);
   filter.Update();
   stop_if_interrupted();

@@ -78,11 +78,14 @@ LentArray counted(vtkIdType count) {
 
 void fetch(const tetlod::Context &context, const std::string &name, vtkDataArray &values) {
   tetlod_array room = room_in(&values, values.GetNumberOfComponents());
-  if (const auto status = tetlod_fetch_field(context.get(), name.c_str(), &room); status != TETLOD_OK)
-    throw tetlod::Error(status, context.last_message());
+  require(tetlod_fetch_field(context.get(), name.c_str(), &room), context);
 }
 
 }  // namespace
+
+void require(tetlod_status status, const tetlod::Context &context) {
+  if (status != TETLOD_OK) throw tetlod::Error(status, context.last_message());
+}
 
 std::string name_of_none(vtkDataSetAttributes &data, std::string name) {
   while (data.HasArray(name.c_str())) name += "_";

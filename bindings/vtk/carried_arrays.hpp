@@ -36,6 +36,9 @@ struct CellArrays {
   std::string name_of_numbers;          // for the library: that of no array of points
 };
 
+// Throws tetlod::Error unless it is TETLOD_OK.
+void require(tetlod_status status, const tetlod::Context &context);
+
 // That name, or one like it that no array has.
 std::string name_of_none(vtkDataSetAttributes &data, std::string name);
 

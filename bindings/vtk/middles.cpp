@@ -13,6 +13,7 @@
 #include <map>
 #include <utility>
 
+#include "lent_array.hpp"
 #include "places.hpp"
 #include "solid_cells.hpp"
 
@@ -48,8 +49,6 @@ vtkSmartPointer<vtkAbstractArray> copy_of(vtkAbstractArray &array, bool becomes_
   return copy;
 }
 
-bool is_real(vtkDataArray &array) { return array.GetDataType() == VTK_FLOAT || array.GetDataType() == VTK_DOUBLE; }
-
 class Cutting {
  public:
   Cutting(vtkUnstructuredGrid &from, const std::string &flags) : from_(from), places_(from) {
@@ -80,7 +79,7 @@ class Cutting {
     for (int i = 0; i < from.GetNumberOfArrays(); i++) {
       vtkDataArray *const numbers = from.GetArray(i);
       has_means_.push_back(numbers != nullptr && has_means(*numbers, from, of_flags));
-      to.AddArray(copy_of(*from.GetAbstractArray(i), has_means_.back() && !is_real(*numbers)));
+      to.AddArray(copy_of(*from.GetAbstractArray(i), has_means_.back() && !is_real(numbers->GetDataType())));
     }
     int active[vtkDataSetAttributes::NUM_ATTRIBUTES];
     from.GetAttributeIndices(active);

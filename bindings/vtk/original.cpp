@@ -70,10 +70,6 @@ LentArray lend_points(vtkDataArray *points) {
   return lend_reals(points);
 }
 
-void require(tetlod_status status, const tetlod::Context &context) {
-  if (status != TETLOD_OK) throw tetlod::Error(status, context.last_message());
-}
-
 void submit_points(tetlod::Context &context, const Original &original) {
   if (original.points.keeper != nullptr)
     return require(tetlod_submit_points(context.get(), &original.points.array), context);

@@ -40,8 +40,7 @@ void fill_scalars(const tetlod::Context &context, const OriginalArrays &arrays, 
   values->SetName(arrays.name.c_str());
   values->SetNumberOfTuples(count);
   tetlod_array room = room_in(values, 1);
-  if (const tetlod_status status = tetlod_fetch_scalars(context.get(), &room); status != TETLOD_OK)
-    throw tetlod::Error(status, context.last_message());
+  require(tetlod_fetch_scalars(context.get(), &room), context);
   describe_as(*arrays.steering, *values);
   grid.GetPointData()->SetScalars(values);
 }

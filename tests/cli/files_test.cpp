@@ -176,6 +176,10 @@ TEST_F(Files, VectorsSteerByTheirMagnitude) {
   run_on(cube);
   run(folder / "in.vtk", folder / "out.vtu", {"--steer", "flow:2"});
   expect_in(said.err, "note: the vectors 'flow' steer by their magnitude");
+  const Outcome twice =
+      run_tool({folder / "out.vtu", folder / "again.vtu", "--steer", "flow", "--steer", "flow magnitude"});
+  expect_in(twice.err, "'flow magnitude' is given twice");
+  EXPECT_EQ(twice.status, 2);
 }
 
 // A sum of parts, as 7 / 6, may be off by rounding.
@@ -366,18 +370,6 @@ TEST_F(Files, WhatAFormatLosesIsRefused) {
     expect_in(refused.err, one.message);
     EXPECT_FALSE(std::filesystem::exists(folder / one.out));
   }
-}
-
-// To the reader of .vtk files they have a name, which is empty.
-TEST_F(Files, ComponentsMayLackAName) {
-  const std::string in = folder / "in.vtu", between = folder / "between.vtk", out = folder / "out.vtu";
-  std::ofstream(in) << one_tet_in_xml(
-      R"(<DataArray type="Float64" Name="pair" NumberOfComponents="2" ComponentName1="second" format="ascii">
-0 0 0 1 1 0 1 1</DataArray>)");
-  ASSERT_EQ(run_tool({in, between, "--target-ratio", "1"}).status, 0);
-  const Outcome back = run_tool({between, out, "--target-ratio", "1"});
-  EXPECT_EQ(back.status, 0) << back.err;
-  expect_in(contents_of(out), "second");
 }
 
 TEST_F(Files, NamesThatAreMissingOrLost) {

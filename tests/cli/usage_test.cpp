@@ -198,6 +198,18 @@ TEST_F(Usage, NamesThatXmlCannotHave) {
   }
 }
 
+// To the reader of .vtk files they have a name, which is empty.
+TEST_F(Usage, ComponentsMayLackAName) {
+  const std::string in = folder / "in.vtu", between = folder / "between.vtk", out = folder / "out.vtu";
+  std::ofstream(in) << one_tet_in_xml(
+      R"(<DataArray type="Float64" Name="pair" NumberOfComponents="2" ComponentName1="second" format="ascii">
+0 0 0 1 1 0 1 1</DataArray>)");
+  ASSERT_EQ(run_tool({in, between, "--target-ratio", "1"}).status, 0);
+  const Outcome back = run_tool({between, out, "--target-ratio", "1"});
+  EXPECT_EQ(back.status, 0) << back.err;
+  EXPECT_NE(contents_of(out).find("second"), std::string::npos);
+}
+
 TEST_F(Usage, NamesOfComponentsThatXmlCannotHave) {
   write_cube(folder / "in.vtk", {});
   std::ofstream(folder / "in.vtk", std::ios::app) << "METADATA\nCOMPONENT_NAMES\nu\n%22v%22\nw\n\n";
