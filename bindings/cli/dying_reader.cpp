@@ -2,22 +2,19 @@
 
 #include <unistd.h>
 
-#include <csignal>
-#include <cstring>
+#include <cstddef>
 
 #include "failure.hpp"
 
 namespace cli {
 namespace {
 
-constexpr int kDeaths[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
-
 // All that a handler may touch. Its stack is one of its own, as the reader's may be what is full.
 std::string last_words;
 char stack[1 << 16];
 
 void on_death(int) {
-  if (write(STDERR_FILENO, last_words.data(), last_words.size()) >= 0) _exit(kFailed);
+  [[maybe_unused]] const auto told = write(STDERR_FILENO, last_words.data(), last_words.size());
   _exit(kFailed);
 }
 
@@ -32,11 +29,11 @@ DyingReader::DyingReader(const std::string &path) {
   struct sigaction action {};
   action.sa_handler = on_death;
   action.sa_flags = static_cast<int>(SA_ONSTACK | SA_RESETHAND);
-  for (const int signal : kDeaths) sigaction(signal, &action, nullptr);
+  for (std::size_t i = 0; i < kDeaths.size(); i++) sigaction(kDeaths[i], &action, &before_[i]);
 }
 
 DyingReader::~DyingReader() {
-  for (const int signal : kDeaths) std::signal(signal, SIG_DFL);
+  for (std::size_t i = 0; i < kDeaths.size(); i++) sigaction(kDeaths[i], &before_[i], nullptr);
 }
 
 }  // namespace cli

@@ -1,6 +1,8 @@
 // VTK's readers die of some damaged files.
 #pragma once
 
+#include <array>
+#include <csignal>
 #include <string>
 
 namespace cli {
@@ -12,6 +14,10 @@ class DyingReader {
   ~DyingReader();
   DyingReader(const DyingReader &) = delete;
   DyingReader &operator=(const DyingReader &) = delete;
+
+ private:
+  static constexpr std::array<int, 5> kDeaths = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
+  struct sigaction before_[kDeaths.size()];
 };
 
 }  // namespace cli
