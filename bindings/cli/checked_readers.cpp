@@ -47,6 +47,8 @@ std::string wrong_array(vtkXMLDataElement &element) {
   if (components != nullptr &&
       (element.GetScalarAttribute("NumberOfComponents", number) != 1 || number < 0 || number > most))
     return std::string("NumberOfComponents=\"") + components + "\" is no number of them";
+  if (type != nullptr && std::strcmp(type, "Bit") == 0 && name == "PDataArray")
+    return "arrays of bits cannot be put together of parts";  // VTK puts them together wrongly
   if (type != nullptr && std::strcmp(type, "String") == 0 && (name == "DataArray" || name == "PDataArray"))
     return name + " cannot be of type String";
   for (int i = 0; i < element.GetNumberOfNestedElements(); i++) {

@@ -115,6 +115,12 @@ void check_names_of(const std::string &path, vtkAbstractArray *array) {
       check_name(path, name, "a component of '" + std::string(of != nullptr ? of : "") + "'");
 }
 
+// Readers put them together wrongly. Of points they become means.
+void check_bits_of_parts(const std::string &path, vtkAbstractArray &array) {
+  if (array.GetDataType() == VTK_BIT && array.GetName() != nullptr)
+    throw Failure(path + ": a .pvtu file cannot have the array '" + array.GetName() + "' of bits; .vtu can");
+}
+
 // As the writer puts it into the file.
 std::size_t length_in_legacy(const std::string &name) {
   const auto is_plain = [](unsigned char c) { return c > ' ' && c < 127 && c != '"' && c != '%'; };
@@ -148,14 +154,16 @@ void check_cells_of_legacy(const std::string &path, vtkCellData &data) {
 }  // namespace
 
 void check_arrays(const std::string &path, vtkUnstructuredGrid &grid) {
-  const bool is_legacy = file_ending(path) == ".vtk";
+  const bool is_legacy = file_ending(path) == ".vtk", has_parts = file_ending(path) == ".pvtu";
   for (int type : {vtkDataObject::POINT, vtkDataObject::CELL, vtkDataObject::FIELD}) {
     vtkFieldData &data = *grid.GetAttributesAsFieldData(type);
     for (int i = 0; i < data.GetNumberOfArrays(); i++) {
+      vtkAbstractArray *const array = data.GetAbstractArray(i);
       if (is_legacy)
-        check_length_for_legacy(path, data.GetAbstractArray(i)->GetName());
+        check_length_for_legacy(path, array->GetName());
       else
-        check_names_of(path, data.GetAbstractArray(i));
+        check_names_of(path, array);
+      if (has_parts && type == vtkDataObject::CELL) check_bits_of_parts(path, *array);
     }
   }
   if (is_legacy) check_cells_of_legacy(path, *grid.GetCellData());

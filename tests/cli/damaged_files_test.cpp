@@ -86,6 +86,7 @@ TEST_F(DamagedFiles, ArraysThatAreNotAsDeclared) {
   expect_refused(points, R"(type="Int8")");
   expect_refused(points, R"(type="Float64" NumberOfComponents="2")");
   expect_refused(points, R"(type="String")");
+  expect_refused(points, R"(type="Bit")");
   std::string text = contents_of(in);
   const std::size_t named = text.rfind("<DataArray", text.find("Name=\"heat\""));
   text.replace(text.find("Float64", named), 7, "String");

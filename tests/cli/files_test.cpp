@@ -360,6 +360,7 @@ TEST_F(Files, WhatAFormatLosesIsRefused) {
     std::string text, out, message;
   } cases[] = {
       {one_tet("", "flags 2 1 bit\n1 0\n"), "out.vtk", "'flags' of cells, several bits each"},
+      {one_tet("", "flag 1 1 bit\n1\n"), "out.pvtu", "'flag' of bits"},
       {one_tet("", "few 1 0 int\n"), "out.vtu", "array 'few': 0 tuples for 1 cells"},
       {one_tet("FIELD FieldData 1\nT%3C0 1 1 double\n7\n", part), "out.vtu", "cannot have the name 'T<0'"},
   };
