@@ -1,6 +1,7 @@
 # What an installed tetlod consists of: the library, its header, a CMake package and a pkg-config file. Every path in
 # them is relative, so that the installed tree can be moved. The worker, the tool and the man pages install themselves.
-# Components: library, development, tool, worker; each is a package (package.cmake).
+# Components: library, development, tool, worker, python; each is a package (package.cmake). ParaView's plugin, in
+# paraview_plugins, is in none.
 include(CMakePackageConfigHelpers)
 
 set(TETLOD_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/tetlod)
@@ -12,7 +13,10 @@ install(TARGETS tetlod tetlod_static EXPORT tetlodTargets
 install(FILES ${PROJECT_SOURCE_DIR}/capi/tetlod.h ${PROJECT_SOURCE_DIR}/bindings/cpp/tetlod.hpp
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR}
-  COMPONENT development)  # the library's package is one for each SONAME, side by side
+  COMPONENT development)
+# What binaries have to bring with them; other packages depend on the library's.
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${CMAKE_CURRENT_LIST_DIR}/NOTICES
+  DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/libtetlod${PROJECT_VERSION_MAJOR} COMPONENT library)
 install(EXPORT tetlodTargets NAMESPACE tetlod:: DESTINATION ${TETLOD_CMAKE_DIR} COMPONENT development)
 export(EXPORT tetlodTargets NAMESPACE tetlod:: FILE ${PROJECT_BINARY_DIR}/cmake/tetlodTargets.cmake)  # for the build tree
 

@@ -1,6 +1,11 @@
 # The ParaView plugin (bindings/paraview), built by a CMake of its own: ParaView's package brings its own VTK, whose
 # targets and functions have the names of the other VTK's. ParaView_DIR, else CMAKE_PREFIX_PATH, says where to look first.
-set(TETLOD_PARAVIEW AUTO CACHE STRING "Build the ParaView plugin: AUTO (where ParaView's development files are), ON, OFF")
+if(TETLOD_ALONE)
+  set(default AUTO)
+else()
+  set(default OFF)
+endif()
+set(TETLOD_PARAVIEW ${default} CACHE STRING "Build the ParaView plugin: AUTO (where ParaView's development files are), ON, OFF")
 set_property(CACHE TETLOD_PARAVIEW PROPERTY STRINGS AUTO ON OFF)
 
 # The folder of paraview-config.cmake, or nothing: find_package would load what it finds.

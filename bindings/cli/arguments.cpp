@@ -45,8 +45,8 @@ constexpr NumberOption kPolicyOptions[] = {
     {"on-inverted", "tets the other way round: turned"},
     {"on-duplicate", "tets given twice: dropped"},
     {"on-overlap",
-     "tets that overlap: inside kept, at the boundary points are moved; faces inside that do not fit: divided; parts "
-     "in contact: each for itself"},
+     "tets that overlap: points are moved until none is turned over, if that comes to an end; faces inside that do not "
+     "fit: divided; parts in contact: each for itself"},
     {"on-unused", "points that no tet uses: ignored"},
     {"on-nonfinite", "points without a finite value: ignored with their tets (coordinates have to be finite)"},
 };

@@ -21,5 +21,18 @@ if [[ -n $tool ]]; then
   compare options "$options" \
     "$(sed -n '/^\.SH OPTIONS/,/^\.SH EXIT/p' "$folder/tetlod.1" | sed 's/\\-/-/g' | grep -oE -- '--[a-z-]+' | sort -u)"
 fi
+# warnings PAGE: what looks wrong to groff, at some widths of a terminal
+warnings() {
+  local width
+  for width in 60 80 100; do
+    MANWIDTH=$width man --warnings -l "$1" 2>&1 >/dev/null | grep . && broken=1
+  done
+}
+
+if command -v man >/dev/null; then
+  for page in "$folder"/*.[13]; do warnings "$page"; done
+else
+  echo "no man here: warnings are not looked for"
+fi
 [[ $broken -eq 0 ]] && echo "the man pages are complete"
 exit $broken
