@@ -25,9 +25,9 @@
  *
  * What goes wrong is a vtkErrorMacro with tetlod's message, an empty output, and an ErrorCode of
  * vtkErrorCode::UserError + the tetlod_status; of several blocks, the code is of the last one. A property that is set
- * beyond its bounds is such an error too, and keeps its value. Progress events come at least every 50 ms, on ten million tets every 300;
- * AbortExecuteOn() from an observer ends the run, which is no error: the output is empty, and the next update runs
- * again.
+ * beyond its bounds is such an error too, and keeps its value. Progress events come at least every 50 ms, on ten
+ * million tets every 300; AbortExecuteOn() from an observer ends the run, which is no error: the output is empty, and
+ * the next update runs again.
  */
 #ifndef vtkTetlodSimplify_h
 #define vtkTetlodSimplify_h
