@@ -19,12 +19,6 @@ namespace {
 constexpr double most_reach = 1e-3, least_reach = 1e-6;
 constexpr std::size_t block = 256;
 
-/// Two triangles that do, and how far they reach into each other.
-struct Meeting {
-  std::int32_t a, b;
-  double reach;
-};
-
 struct Extent {
   double low, high;
 };
@@ -39,6 +33,33 @@ void sort_unique(Array<T> &array) {
   std::sort(array.begin(), array.end());
   array.erase(std::unique(array.begin(), array.end()), array.end());
 }
+
+/// Pairs that come again and again: of parts that meet at an edge all triangles there meet all others.
+class Pairs {
+ public:
+  explicit Pairs(Memory &memory) : pairs_(&memory) {}
+  void add(std::uint64_t pair) {
+    pairs_.push_back(pair);
+    if (pairs_.size() < 2 * different_ + 1024) return;
+    sort_unique(pairs_);
+    different_ = pairs_.size();
+  }
+  Span<const std::uint64_t> all() const { return pairs_; }
+
+ private:
+  Array<std::uint64_t> pairs_;
+  std::size_t different_ = 0;  // of the first ones
+};
+
+/// What is known of triangles that meet.
+struct Meetings {
+  Meetings(std::size_t triangles, std::size_t components, Memory &memory)
+      : meets(triangles, 0, &memory), goes_deep(components, 0, &memory), pairs(&memory), places(&memory) {}
+  Array<std::uint8_t> meets;      // of each triangle
+  Array<std::uint8_t> goes_deep;  // of each component, whether one of its triangles does, beside what touches
+  Array<std::uint64_t> pairs;     // of components
+  Array<Box> places;              // where one meets itself
+};
 
 /// How far two triangles reach into each other along an axis; without end where it has no length.
 double reach_along(const Vec3 &axis, const Vec3 a[3], const Vec3 b[3]) {
@@ -70,79 +91,84 @@ class ContactFinder {
         diagonal_(box_of(surface.points).diagonal()) {}
 
   Contacts find() const {
-    const Array<Meeting> meetings = find_meetings();
-    if (meetings.empty() || any_covered(meetings)) return Contacts(job_.memory);
-    Array<std::uint64_t> pairs(&job_.memory);
-    Array<Box> places(&job_.memory);
-    for (const Meeting &m : meetings) {
-      pairs.push_back(Contacts::pair_of(component(m.a), component(m.b)));
-      if (component(m.a) == component(m.b)) places.push_back(place_of(m));
-    }
+    Meetings all(surface_.triangles.size(), std::size_t(topology_.components), job_.memory);
+    if (!find_meetings(all) || all.pairs.empty() || any_covered(all)) return Contacts(job_.memory);
     KdTree itself(job_.memory);
-    itself.build(std::move(places), 8, job_);
-    return {std::move(pairs), std::move(itself)};
+    itself.build(std::move(all.places), 8, job_);
+    return {std::move(all.pairs), std::move(itself)};
   }
 
  private:
   std::int32_t component(std::int32_t t) const { return topology_.component[std::size_t(t)]; }
   /// And around it, as far as what touches may reach.
-  Box place_of(const Meeting &m) const {
+  Box place_of(std::int32_t a, std::int32_t b) const {
     const auto box = [&](std::int32_t t) { return box_of(surface_.points, surface_.triangles[std::size_t(t)]); };
-    const Box place = common(box(m.a), box(m.b));
+    const Box place = common(box(a), box(b));
     return {place.low - most_reach * diagonal_, place.high + most_reach * diagonal_};
   }
   TriangleInSpace triangle(std::int32_t t) const { return {surface_.points, surface_.triangles[std::size_t(t)]}; }
 
-  /// False where they overlap; else, if they meet, it is appended to those that do.
-  bool look_at(std::int32_t a, std::int32_t b, Array<Meeting> &meetings) const {
+  /// What one block of triangles adds to Meetings.
+  struct OfBlock {
+    explicit OfBlock(Memory &memory) : pairs(memory), places(&memory) {}
+    Pairs pairs;
+    Array<Box> places;
+  };
+
+  /// False where they overlap.
+  bool look_at(std::int32_t a, std::int32_t b, OfBlock &of_block, Meetings &all) const {
     const TriangleInSpace p = triangle(a), q = triangle(b);
     const Vec3 first[3] = {p.a, p.b, p.c}, second[3] = {q.a, q.b, q.c};
     if (triangles_apart(first, surface_.triangles[std::size_t(a)], second, surface_.triangles[std::size_t(b)]))
       return true;
     const double reach = reach_of(first, second);
-    if (reach <= most_reach * diagonal_) meetings.push_back({a, b, reach});
-    return reach <= most_reach * diagonal_;
+    if (!(reach <= most_reach * diagonal_)) return false;
+    for (const std::int32_t t : {a, b}) {
+      set_flag(all.meets[std::size_t(t)]);
+      if (reach > least_reach * diagonal_) set_flag(all.goes_deep[std::size_t(component(t))]);
+    }
+    of_block.pairs.add(Contacts::pair_of(component(a), component(b)));
+    if (component(a) == component(b)) of_block.places.push_back(place_of(a, b));
+    return true;
   }
 
   bool is_asked_for(std::int32_t a, std::int32_t b) const {
     return b > a && (with_itself_ || component(a) != component(b));
   }
 
-  /// None where two overlap.
-  Array<Meeting> find_meetings() const {
+  /// False where two overlap.
+  bool find_meetings(Meetings &all) const {
     const std::size_t count = surface_.triangles.size();
-    Array<Array<Meeting>> of_block(count / block + 1, &job_.memory);
+    Array<OfBlock> of_blocks(&job_.memory);
+    for (std::size_t i = 0; i < count / block + 1; i++) of_blocks.emplace_back(job_.memory);
     FirstCulprit overlap;
     job_.parallel.for_blocks(count, block, [&](std::size_t begin, std::size_t end) {
       for (std::size_t t = begin; t < end && !overlap.any(); t++) {
         if (t % 8 == 0) job_.poll(double(t) / double(count));
         const auto a = std::int32_t(t);
         tree_.for_near(a, [&](std::int32_t b) {
-          if (is_asked_for(a, b) && !look_at(a, b, of_block[begin / block])) overlap.report(t);
+          if (is_asked_for(a, b) && !look_at(a, b, of_blocks[begin / block], all)) overlap.report(t);
         });
       }
     });
-    Array<Meeting> all(&job_.memory);
-    if (overlap.any()) return all;
-    for (const Array<Meeting> &some : of_block) all.insert(all.end(), some.begin(), some.end());
-    return all;
+    if (overlap.any()) return false;
+    for (const OfBlock &some : of_blocks) {
+      all.pairs.insert(all.pairs.end(), some.pairs.all().begin(), some.pairs.all().end());
+      all.places.insert(all.places.end(), some.places.begin(), some.places.end());
+    }
+    return true;
   }
 
   /// Whether a triangle that meets another lies in another solid's material. Solids that do not just touch may be
   /// deeper in each other than their triangles reach.
-  bool any_covered(const Array<Meeting> &meetings) const {
-    Array<double> behind(std::size_t(topology_.components), least_reach, &job_.memory);
-    Array<std::uint8_t> meets(surface_.triangles.size(), 0, &job_.memory);
-    for (const Meeting &m : meetings)
-      for (const std::int32_t t : {m.a, m.b}) {
-        if (m.reach > least_reach * diagonal_) behind[std::size_t(component(t))] = most_reach;
-        meets[std::size_t(t)] = 1;
-      }
+  bool any_covered(const Meetings &all) const {
     FirstCulprit covered;
-    for_each(meets.size(), job_, [&](std::size_t t) {
+    for_each(all.meets.size(), job_, [&](std::size_t t) {
+      if (t % 64 == 0) job_.poll(0);  // a ray may meet very many
+      if (!all.meets[t] || covered.any()) return;
       const auto triangle = std::int32_t(t);
-      if (!meets[t] || covered.any()) return;
-      if (!has_material_once(triangle, behind[std::size_t(component(triangle))] * diagonal_)) covered.report(t);
+      const bool is_deep = all.goes_deep[std::size_t(component(triangle))] != 0;
+      if (!has_material_once(triangle, (is_deep ? most_reach : least_reach) * diagonal_)) covered.report(t);
     });
     return covered.any();
   }

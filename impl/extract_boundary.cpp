@@ -1,7 +1,9 @@
 #include "extract_boundary.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <string>
+#include <utility>
 
 #include "face_sweep.hpp"
 #include "predicates.hpp"
@@ -32,8 +34,6 @@ struct Found {
   std::string crowded;            // its first face of more than two tets; empty: there is none
 };
 
-std::int32_t opposite(const MeshView &mesh, const FaceUse &f) { return mesh.tets[f.tet()][f.corner()]; }
-
 void add_boundary_face(const MeshView &mesh, const FaceUse &f, Found &found) {
   const Tet &t = mesh.tets[f.tet()];
   const int sign = orientation(mesh.points, t);
@@ -47,19 +47,17 @@ void add_boundary_face(const MeshView &mesh, const FaceUse &f, Found &found) {
 
 /// Two tets on one face are neighbours unless they are one tet given twice; more than two are an error unless enough
 /// of them are. Which chunk comes to its own first is chance.
-void look_at_shared_face(const MeshView &mesh, std::int32_t low, const FaceUse *first, const FaceUse *last,
-                         const HostNumbers &numbers, Found &found) {
-  std::ptrdiff_t different = last - first;
-  for (const FaceUse *f = first + 1; f != last; f++)
-    if (std::any_of(first, f, [&](const FaceUse &e) { return opposite(mesh, e) == opposite(mesh, *f); })) {
-      found.duplicate.push_back(std::int32_t(f->tet()));
-      different--;
-    }
+void look_at_shared_face(const MeshView &mesh, std::int32_t low, Span<const FaceUse> uses, const HostNumbers &numbers,
+                         Job &job, Found &found) {
+  const Array<std::uint8_t> again = find_given_again(uses, mesh.tets, job);
+  for (std::size_t i = 0; i < uses.size(); i++)
+    if (again[i]) found.duplicate.push_back(std::int32_t(uses[i].tet()));
+  const auto different = std::count(again.begin(), again.end(), 0);
   if (different > 2 && found.crowded.empty())
     found.crowded =
         text("%d tets share the face of vertices %lld, %lld and %lld (the first are tets %lld, %lld, %lld)",
-             int(different), numbers.vertex(low), numbers.vertex(first->middle), numbers.vertex(first->high),
-             numbers.tet(first->tet()), numbers.tet(first[1].tet()), numbers.tet(first[2].tet()));
+             int(different), numbers.vertex(low), numbers.vertex(uses[0].middle), numbers.vertex(uses[0].high),
+             numbers.tet(uses[0].tet()), numbers.tet(uses[1].tet()), numbers.tet(uses[2].tet()));
 }
 
 Found sweep(const MeshView &mesh, Span<const std::uint8_t> excluded, const HostNumbers &numbers, Job &job) {
@@ -69,8 +67,8 @@ Found sweep(const MeshView &mesh, Span<const std::uint8_t> excluded, const HostN
   faces.visit([&](std::size_t chunk, std::int32_t low, const FaceUse *first, const FaceUse *last) {
     if (last - first == 1)
       add_boundary_face(mesh, *first, chunks[chunk]);
-    else if (last - first > 2 || opposite(mesh, first[0]) == opposite(mesh, first[1]))
-      look_at_shared_face(mesh, low, first, last, numbers, chunks[chunk]);
+    else if (last - first > 2 || tip_of(first[0], mesh.tets) == tip_of(first[1], mesh.tets))
+      look_at_shared_face(mesh, low, {first, std::size_t(last - first)}, numbers, job, chunks[chunk]);
   });
   for (const Found &chunk : chunks)
     if (!chunk.crowded.empty()) throw Error(Status::mesh_nonmanifold, chunk.crowded);

@@ -24,6 +24,12 @@ struct FaceUse {
   std::size_t corner() const { return use % 4; }
 };
 
+/// The corner of its tet that is none of the face's.
+inline std::int32_t tip_of(const FaceUse &use, Span<const Tet> tets) { return tets[use.tet()][use.corner()]; }
+
+/// Which of the uses of one face are of tets that an earlier one is, too: given twice, as their tips say.
+Array<std::uint8_t> find_given_again(Span<const FaceUse> uses, Span<const Tet> tets, Job &job);
+
 class FaceSweep {
  public:
   /// Tets with excluded[t] != 0 are left out (empty: none).

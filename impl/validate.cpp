@@ -149,9 +149,10 @@ class Inspector {
   void sweep_faces() {
     Array<std::uint8_t> duplicate(tets_.size(), 0, &job_.memory);
     for_each_face_of_tets([&](const FaceUse *first, const FaceUse *last) {
-      for (const FaceUse *f = first + 1; f < last; f++)
-        if (std::any_of(first, f, [&](const FaceUse &e) { return opposite(e) == opposite(*f); }))
-          duplicate[f->tet()] = 1;
+      if (last - first == 1 || (last - first == 2 && tip_of(first[0], tets_) != tip_of(first[1], tets_))) return;
+      const Array<std::uint8_t> again = find_given_again({first, std::size_t(last - first)}, tets_, job_);
+      for (std::size_t i = 0; i < again.size(); i++)
+        if (again[i]) duplicate[first[i].tet()] = 1;
     });
     std::size_t i = 0;
     drop_tets([&](const Tet &, std::int64_t name) {
@@ -171,14 +172,12 @@ class Inspector {
     if (!tets_.empty()) for_each_face({points_, values_, tets_}, {}, job_, visit);
   }
 
-  std::int32_t opposite(const FaceUse &f) const { return tets_[f.tet()][f.corner()]; }
-
   /// Both tets on one side of their face.
   bool overlap(const FaceUse &a, const FaceUse &b) const {
     const auto [p, q, r] = face_opposite(tets_[a.tet()], a.corner());
     const auto side_of = [&, p = p, q = q, r = r](std::int32_t v) { return orientation(points_, Tet{p, q, r, v}); };
-    const int first = side_of(opposite(a));
-    return first != 0 && first == side_of(opposite(b));
+    const int first = side_of(tip_of(a, tets_));
+    return first != 0 && first == side_of(tip_of(b, tets_));
   }
 
   /// Only where it can be made out: a face with three tets, or a boundary that overlaps itself, has no answer here.

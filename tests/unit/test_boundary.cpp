@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <map>
 #include <random>
@@ -237,6 +238,23 @@ TEST_F(ExtractBoundary, AFaceOfThreeTetsIsRefused) {
   EXPECT_EQ(status(mesh), Status::mesh_nonmanifold);
   EXPECT_NE(message.find("3 tets"), std::string::npos) << message;
   EXPECT_NE(message.find("20"), std::string::npos) << message;
+}
+
+/// Each with each they would be compared for minutes, and no cancelling heard.
+TEST_F(ExtractBoundary, AFaceOfVeryManyTetsIsSoonRefused) {
+  Mesh mesh;
+  mesh.points = {Vec3(0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
+  constexpr std::int32_t count = 200000;
+  for (std::int32_t i = 0; i < count; i++) {
+    mesh.points.push_back(Vec3(0.1, 0.1, 1 + i));
+    mesh.tets.push_back({0, 1, 2, 3 + i});
+  }
+  mesh.tets.push_back(mesh.tets[7]);
+  mesh.scalars.resize(mesh.points.size(), 0);
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_EQ(status(mesh), Status::mesh_nonmanifold);
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(), 5);
+  EXPECT_NE(message.find("200000 tets"), std::string::npos) << message;
 }
 
 /// A tet given twice or three times counts once, wherever it is and however it is wound.

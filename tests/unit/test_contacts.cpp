@@ -241,5 +241,28 @@ TEST_F(ContactsTest, ComponentsKnowWhatTheyWere) {
   }
 }
 
+/// All triangles at the edge meet all others: that is told once for two of the parts.
+TEST_F(ContactsTest, PartsThatMeetAtAnEdgeTakeLittleMemory) {
+  constexpr int parts = 200;
+  Mesh wheel;
+  for (int i = 0; i < parts; i++) {
+    const double turn = 2 * std::acos(-1.0) / parts;
+    for (const double z : {0.0, 1.0}) wheel.points.push_back(Vec3(0, 0, z));
+    for (const double at : {i * turn, (i + 0.5) * turn}) wheel.points.push_back(Vec3(std::cos(at), std::sin(at), 0.5));
+    wheel.tets.push_back({4 * i, 4 * i + 1, 4 * i + 2, 4 * i + 3});
+  }
+  wheel.scalars.resize(wheel.points.size(), 0);
+  surface_ = surface_of(wheel, host_.job);
+  const SurfaceTopology of = topology(host_.job);
+  TreeOnDemand tree(surface_);
+  tree.get(host_.job);
+  host_.memory.reset_peak();
+  const std::uint64_t before = host_.memory.in_use();
+  const Contacts contacts = find_contacts(surface_, of, tree, false, host_.job);
+  EXPECT_LT(host_.memory.peak() - before, 64u * parts * parts);
+  for (std::int32_t a = 0; a < parts; a++)
+    for (std::int32_t b = 0; b < parts; b++) EXPECT_EQ(contacts.between(a, b), a != b);
+}
+
 }  // namespace
 }  // namespace tetlod
