@@ -322,7 +322,10 @@ void prepare_original(const Input &input, const Options &options, Job &job, Orig
   take_cracks(std::move(merged.cracks.opened), job, original);
   read_flags(input, representative, job, original);
   Array<FlaggedPoint> &flagged = original.moves.flagged;
-  flagged = made && !input.flags.present ? made->flagged : find_flagged(input, job, original);
+  if (made && !input.flags.present)
+    flagged.assign(made->flagged.begin(), made->flagged.end());
+  else
+    flagged = find_flagged(input, job, original);
   move_points(moves_to_flagged(flagged, original.view.points, job.memory), job, original);
   if (original.merged_points || original.nonfinite_points || any_repeated_vertex(original.view.tets, job))
     drop_and_rename(representative, job, original);

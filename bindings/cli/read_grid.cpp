@@ -45,23 +45,16 @@ Grid read_whole(const std::string &path, std::vector<std::string> &notes) {
   return grid;
 }
 
-Grid read_parts(const std::string &path, std::vector<std::string> &parts) {
+Original read_parts(const std::string &path) {
   vtkNew<CheckedPartsReader> reader;
   const Grid grid = read_with(*reader, path);
-  parts = reader->parts();
-  return grid;
+  return {grid, reader->parts()};
 }
 
 Original read_by_ending(const std::string &path, std::vector<std::string> &notes) {
   const std::string ending = file_ending(path);
-  Original original;
-  if (ending == ".vtk")
-    original.grid = read_legacy(path);
-  else if (ending == ".pvtu")
-    original.grid = read_parts(path, original.parts);
-  else
-    original.grid = read_whole(path, notes);
-  return original;
+  if (ending == ".pvtu") return read_parts(path);
+  return {ending == ".vtk" ? read_legacy(path) : read_whole(path, notes), {}};
 }
 
 // VTK writes them last: of a file that is cut off there they are missing, and read as none.
