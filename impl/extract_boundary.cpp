@@ -65,10 +65,11 @@ Found sweep(const MeshView &mesh, Span<const std::uint8_t> excluded, const HostN
   Array<Found> chunks(&job.memory);
   for (std::size_t c = 0; c < faces.chunks(); c++) chunks.emplace_back(job.memory);
   faces.visit([&](std::size_t chunk, std::int32_t low, const FaceUse *first, const FaceUse *last) {
-    if (last - first == 1)
+    const Span<const FaceUse> uses(first, std::size_t(last - first));
+    if (uses.size() == 1)
       add_boundary_face(mesh, *first, chunks[chunk]);
-    else if (last - first > 2 || tip_of(first[0], mesh.tets) == tip_of(first[1], mesh.tets))
-      look_at_shared_face(mesh, low, {first, std::size_t(last - first)}, numbers, job, chunks[chunk]);
+    else if (!are_neighbours(uses, mesh.tets))
+      look_at_shared_face(mesh, low, uses, numbers, job, chunks[chunk]);
   });
   for (const Found &chunk : chunks)
     if (!chunk.crowded.empty()) throw Error(Status::mesh_nonmanifold, chunk.crowded);

@@ -27,6 +27,11 @@ struct FaceUse {
 /// The corner of its tet that is none of the face's.
 inline std::int32_t tip_of(const FaceUse &use, Span<const Tet> tets) { return tets[use.tet()][use.corner()]; }
 
+/// Two tets on one face are neighbours; not so more, and one that is given twice.
+inline bool are_neighbours(Span<const FaceUse> uses, Span<const Tet> tets) {
+  return uses.size() == 2 && tip_of(uses[0], tets) != tip_of(uses[1], tets);
+}
+
 /// Which of the uses of one face are of tets that an earlier one is, too: given twice, as their tips say.
 Array<std::uint8_t> find_given_again(Span<const FaceUse> uses, Span<const Tet> tets, Job &job);
 

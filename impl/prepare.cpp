@@ -250,11 +250,10 @@ void drop_excluded(Job &job, Boundary &boundary, Original &original) {
 /// Prepares the mesh anew.
 void close_cracks(const Input &input, const Options &options, Job &job, Original &original, Boundary &boundary) {
   Jumps jumps = std::move(original.jumps);
-  PointMoves made = std::move(original.moves);
-  made.opened.clear();
+  const PointMoves none(job.memory);
   original = Original(job.memory);
   boundary = Boundary(job.memory);
-  prepare_original(input, options, job, original, &made);
+  prepare_original(input, options, job, original, &none);
   original.jumps = std::move(jumps);
   prepare_boundary(input, options, job, original, boundary);
 }

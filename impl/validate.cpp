@@ -149,10 +149,11 @@ class Inspector {
   void sweep_faces() {
     Array<std::uint8_t> duplicate(tets_.size(), 0, &job_.memory);
     for_each_face_of_tets([&](const FaceUse *first, const FaceUse *last) {
-      if (last - first == 1 || (last - first == 2 && tip_of(first[0], tets_) != tip_of(first[1], tets_))) return;
-      const Array<std::uint8_t> again = find_given_again({first, std::size_t(last - first)}, tets_, job_);
+      const Span<const FaceUse> uses(first, std::size_t(last - first));
+      if (uses.size() == 1 || are_neighbours(uses, tets_)) return;
+      const Array<std::uint8_t> again = find_given_again(uses, tets_, job_);
       for (std::size_t i = 0; i < again.size(); i++)
-        if (again[i]) duplicate[first[i].tet()] = 1;
+        if (again[i]) duplicate[uses[i].tet()] = 1;
     });
     std::size_t i = 0;
     drop_tets([&](const Tet &, std::int64_t name) {

@@ -140,15 +140,10 @@ vtkSmartPointer<vtkDataArray> CheckedReader::values_of(vtkXMLDataElement *array,
 }
 
 int CheckedPartsReader::ReadPrimaryElement(vtkXMLDataElement *primary) {
-  parts_.clear();
-  for (int i = 0; i < primary->GetNumberOfNestedElements(); i++) {
-    vtkXMLDataElement &nested = *primary->GetNestedElement(i);
-    const char *const source = nested.GetAttribute("Source");
-    if (std::strcmp(nested.GetName(), "Piece") != 0 || source == nullptr) continue;
-    const std::unique_ptr<char[]> part(this->CreatePieceFileName(source));
-    parts_.emplace_back(part.get());
-    if (std::ifstream(parts_.back())) continue;
-    vtkErrorMacro(<< "its part " << parts_.back() << " cannot be read: " << std::strerror(errno));
+  find_parts(*primary);
+  for (const std::string &part : parts_) {
+    if (std::ifstream(part)) continue;
+    vtkErrorMacro(<< "its part " << part << " cannot be read: " << std::strerror(errno));
     return 0;
   }
   if (const std::string wrong = wrong_array(*primary); !wrong.empty()) {
@@ -156,6 +151,17 @@ int CheckedPartsReader::ReadPrimaryElement(vtkXMLDataElement *primary) {
     return 0;
   }
   return vtkXMLPUnstructuredGridReader::ReadPrimaryElement(primary);
+}
+
+void CheckedPartsReader::find_parts(vtkXMLDataElement &primary) {
+  parts_.clear();
+  for (int i = 0; i < primary.GetNumberOfNestedElements(); i++) {
+    vtkXMLDataElement &nested = *primary.GetNestedElement(i);
+    const char *const source = nested.GetAttribute("Source");
+    if (std::strcmp(nested.GetName(), "Piece") != 0 || source == nullptr) continue;
+    const std::unique_ptr<char[]> part(this->CreatePieceFileName(source));
+    parts_.emplace_back(part.get());
+  }
 }
 
 // VTK adds the places of the faces of a piece's cells where it has polyhedra, and none where not.

@@ -46,6 +46,8 @@ class CheckedPartsReader : public vtkXMLPUnstructuredGridReader {
   void CopyArrayForCells(vtkAbstractArray *from, vtkAbstractArray *to) override;
 
  private:
+  void find_parts(vtkXMLDataElement &primary);
+
   std::vector<std::string> parts_;
 };
 
