@@ -62,35 +62,39 @@ void SolidComplex::collapse(const SolidEdge &edge, const Vec3 &point, CollapseRo
   if (on_boundary(edge.gone)) merge_triangles(edge, room);
 }
 
+/// Without branches, from there on; where they end.
+std::int32_t *SolidComplex::list_left(Span<const std::int32_t> star, std::int32_t *place) const {
+  for (std::int32_t t : star) {
+    *place = t;
+    place += has_tet(t);
+  }
+  return place;
+}
+
 void SolidComplex::merge_tets(const SolidEdge &edge, CollapseRoom &room) {
   for (std::int32_t t : edge.edge_tets) tets[std::size_t(t)][0] = -1;
   for (std::int32_t t : edge.gone_tets)
     for (std::int32_t &v : tets[std::size_t(t)]) v = v == edge.gone ? edge.stays : v;
   const Span<const std::int32_t> of_stays = tets_of.of(edge.stays);
-  std::size_t left = edge.gone_tets.size();
-  room.list.resize(left + of_stays.size());
-  std::copy(edge.gone_tets.begin(), edge.gone_tets.end(), room.list.begin());
-  for (std::int32_t t : of_stays) {
-    room.list[left] = t;
-    left += has_tet(t);
-  }
-  tets_of.set(edge.stays, {room.list.data(), left}, room.tets);
+  std::int32_t *const list = room.of_size(edge.gone_tets.size() + of_stays.size());
+  const std::int32_t *const end =
+      list_left(of_stays, std::copy(edge.gone_tets.begin(), edge.gone_tets.end(), list));
+  tets_of.set(edge.stays, {list, std::size_t(end - list)}, room.tets);
   tets_of.clear(edge.gone);
 }
 
 void SolidComplex::fill_cavity(const SolidEdge &edge, CollapseRoom &room) {
-  Few<std::int32_t, 4 * largest_cavity> around;
-  for (std::int32_t t : edge.cavity)
-    for (std::int32_t v : tets[std::size_t(t)])
-      if (v != edge.gone && !around.has(v)) around.push(v);
+  room.around.find(edge.gone, edge.cavity, tets);
   for (std::int32_t t : edge.cavity) tets[std::size_t(t)][0] = -1;
-  for (std::int32_t v : around) {
-    room.list.clear();
-    for (std::int32_t t : tets_of.of(v))
-      if (has_tet(t)) room.list.push_back(t);
-    for (std::size_t i = 0; i < edge.fresh.size(); i++)
-      if (has(edge.fresh[i], v)) room.list.push_back(edge.cavity[i]);
-    tets_of.set(v, room.list, room.tets);
+  for (std::int32_t v : room.around) {
+    const Span<const std::int32_t> before = tets_of.of(v);
+    std::int32_t *const list = room.of_size(before.size() + edge.fresh.size());
+    std::int32_t *end = list_left(before, list);
+    for (std::size_t i = 0; i < edge.fresh.size(); i++) {
+      *end = edge.cavity[i];
+      end += has(edge.fresh[i], v);
+    }
+    tets_of.set(v, {list, std::size_t(end - list)}, room.tets);
   }
   tets_of.clear(edge.gone);
   for (std::size_t i = 0; i < edge.fresh.size(); i++) tets[std::size_t(edge.cavity[i])] = edge.fresh[i];

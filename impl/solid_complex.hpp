@@ -56,10 +56,16 @@ struct SolidEdge {
 
 /// What collapses need, for one thread at a time.
 struct CollapseRoom {
-  explicit CollapseRoom(Memory &memory) : tets(memory), triangles(memory), list(&memory) {}
+  explicit CollapseRoom(Memory &memory) : tets(memory), triangles(memory), list(&memory), around(memory) {}
   ListRoom tets, triangles;
   Array<std::int32_t> list;
+  Neighbours around;  ///< of a cavity; what is there twice does no harm
 
+  /// The list, with that room.
+  std::int32_t *of_size(std::size_t entries) {
+    if (list.size() < entries) list.resize(entries);
+    return list.data();
+  }
   void clear() {
     for (ListRoom *room : {&tets, &triangles}) room->clear();
   }
@@ -139,6 +145,7 @@ class SolidComplex {
   static constexpr std::size_t much = 8;  ///< times what has grown is all
   double usual_shape2(Memory &memory) const;
   double volume(Job &job) const;
+  std::int32_t *list_left(Span<const std::int32_t> star, std::int32_t *place) const;
   void merge_tets(const SolidEdge &edge, CollapseRoom &room);
   void fill_cavity(const SolidEdge &edge, CollapseRoom &room);
   void merge_triangles(const SolidEdge &edge, CollapseRoom &room);
