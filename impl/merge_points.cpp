@@ -95,7 +95,8 @@ class PointGrid {
       : points_(points),
         cells_(cells),
         tolerance_(tolerance),
-        table_(points.size(), [&](std::size_t v) { return cells.of(points[v]); }, job),
+        table_(
+            points.size(), [&](std::size_t v) { return cells.of(points[v]); }, job),
         is_inside_(array_of(points.size(), std::uint8_t(0), job)) {
     for_each(points.size(), job, [&](std::size_t v) {
       is_inside_[v] = cells.of(points[v] - tolerance) == cells.of(points[v] + tolerance);
@@ -155,7 +156,8 @@ std::int64_t merge(Span<const std::uint8_t> used, Job &job, Array<std::int32_t> 
 
 std::int64_t merge_equal(Span<const Vec3> points, Span<const std::uint8_t> used, Job &job,
                          Array<std::int32_t> &representative) {
-  PointTable table(points.size(), [&](std::size_t v) { return points[v]; }, job);
+  PointTable table(
+      points.size(), [&](std::size_t v) { return points[v]; }, job);
   const auto find = [&](std::int32_t v) { return find_equal(table, points, v); };
   return merge(used, job, representative, find, [&](std::int32_t v) { table.insert(v); });
 }

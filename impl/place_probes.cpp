@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "boundary_tree.hpp"
 #include "random_place.hpp"
@@ -181,8 +182,8 @@ void keep_to_solids(const TetLocator &locator, const SolidsOfTets &solids, Span<
 }
 
 template <std::size_t m>
-Array<std::int32_t> find_homes(const SolidsOfTets &solids, Span<const std::int32_t> solid, Job &job,
-                               AdaptiveMesh<m> &mesh) {
+Array<std::int32_t> find_homes(const TetLocator &locator, const SolidsOfTets &solids, Span<const std::int32_t> solid,
+                               Job &job, AdaptiveMesh<m> &mesh) {
   Array<std::int32_t> order(&job.memory), home(mesh.probes.size(), -1, &job.memory);
   order.reserve(mesh.probes.size());
   const auto append = [&](std::size_t first, std::size_t end) {  // so that walks are short
@@ -191,7 +192,6 @@ Array<std::int32_t> find_homes(const SolidsOfTets &solids, Span<const std::int32
   };
   append(0, mesh.vertex_probes);
   append(mesh.vertex_probes, mesh.probes.size());
-  const TetLocator locator(mesh, job);
   Array<Array<std::int32_t>> outside_of_block(home.size() / block + 1, &job.memory);
   job.parallel.for_blocks(home.size(), block, [&](std::size_t begin, std::size_t end) {
     std::int32_t hint = -1;
@@ -257,15 +257,21 @@ void place_probes(const MeshView &original, const ProbeOptions &options, Job &jo
   mesh.vertex_of_probe.clear();
   mesh.outside.clear();
   mesh.probes.reserve(expected_probes(original, options));
-  add_vertices(original, options.most_vertices, job, mesh);
-  mesh.vertex_probes = mesh.probes.size();
-  mesh.vertex_weight = options.vertex_weight;
   Array<std::int32_t> solid(&job.memory);  // of each probe, where solids are in contact
-  if (!original.solid.empty())
-    for (const std::int32_t v : mesh.vertex_of_probe) solid.push_back(original.solid[std::size_t(v)]);
-  if (options.most_inner > 0) add_inner(original, options.most_inner, job, mesh.probes, solid);
+  std::optional<TetLocator> locator;
+  job.parallel.at_once(
+      [&] {
+        add_vertices(original, options.most_vertices, job, mesh);
+        mesh.vertex_probes = mesh.probes.size();
+        if (!original.solid.empty())
+          for (const std::int32_t v : mesh.vertex_of_probe) solid.push_back(original.solid[std::size_t(v)]);
+        if (options.most_inner > 0) add_inner(original, options.most_inner, job, mesh.probes, solid);
+      },
+      [&] { locator.emplace(mesh, job); });
+  mesh.vertex_weight = options.vertex_weight;
   const SolidsOfTets solids(mesh, original.solid, job);
-  Array<std::int32_t> home = find_homes(solids, solid, job, mesh);
+  Array<std::int32_t> home = find_homes(*locator, solids, solid, job, mesh);
+  locator.reset();
   if (options.project_outside) project(solids, job, home, mesh);
   const auto count_homeless = [&](std::size_t end) {
     return std::size_t(std::count(home.begin(), home.begin() + std::ptrdiff_t(end), -1));

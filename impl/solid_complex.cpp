@@ -77,8 +77,7 @@ void SolidComplex::merge_tets(const SolidEdge &edge, CollapseRoom &room) {
     for (std::int32_t &v : tets[std::size_t(t)]) v = v == edge.gone ? edge.stays : v;
   const Span<const std::int32_t> of_stays = tets_of.of(edge.stays);
   std::int32_t *const list = room.of_size(edge.gone_tets.size() + of_stays.size());
-  const std::int32_t *const end =
-      list_left(of_stays, std::copy(edge.gone_tets.begin(), edge.gone_tets.end(), list));
+  const std::int32_t *const end = list_left(of_stays, std::copy(edge.gone_tets.begin(), edge.gone_tets.end(), list));
   tets_of.set(edge.stays, {list, std::size_t(end - list)}, room.tets);
   tets_of.clear(edge.gone);
 }
