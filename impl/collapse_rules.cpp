@@ -46,12 +46,6 @@ void Star::find_spokes() {
   }
 }
 
-Box Star::box() const {
-  Box box;
-  for (const Box &spoke : spoke_box) box.add(spoke);
-  return box;
-}
-
 bool pinches_ring(const Star &star) {
   for (std::size_t i = 0; i < star.size(); i++)
     for (std::size_t j = 0; j < i; j++)

@@ -39,7 +39,6 @@ struct Star {
   std::size_t after(std::size_t i) const { return i + 1 == ring.size() ? 0 : i + 1; }
   void clear();
   void find_spokes();  ///< normal and spoke_box, from the rest
-  Box box() const;
 };
 
 /// The ring passes twice through one point of the uncut surface: two edges of the star would be one. The link

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 
+#include "few.hpp"
 #include "predicates.hpp"
 #include "ray.hpp"
+#include "turned_box.hpp"
 
 namespace tetlod {
 
@@ -101,11 +103,16 @@ CrossingGuard::CrossingGuard(const Array<Vec3> &points, const Array<Triangle> &t
 
 bool CrossingGuard::is_passed(const Star &star) const {
   if (!is_flat_fan(star) && spokes_cross(star)) return true;
-  Box box = star.box();  // with that of the star before
-  for (std::int32_t face : star.old_faces) box.add(Other(*this, face).box);
+  Few<Vec3, 3 * (longest_ring + 2) + 1> before_and_after;
+  before_and_after.push(star.centre);
+  for (std::int32_t face : star.old_faces)
+    for (const Vec3 &p : Other(*this, face).point) before_and_after.push(p);
+  const Box box = box_of(before_and_after);
+  const TurnedBox turned_box(before_and_after);
   return tree_.any_overlap(box, [&](std::int32_t face) {
     if (std::find(star.old_faces.begin(), star.old_faces.end(), face) != star.old_faces.end()) return false;
     const Other other(*this, face);
+    if (turned_box.is_clear_of(other.point)) return false;
     if (may_meet_(star.old_faces[0], face, box, other.box)) return false;
     return other.meets(star) || passes_over(star, box, other);
   });

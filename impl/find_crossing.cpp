@@ -8,6 +8,7 @@
 #include "status.hpp"
 #include "surface_distance.hpp"
 #include "surface_topology.hpp"
+#include "turned_box.hpp"
 
 namespace tetlod {
 
@@ -20,9 +21,10 @@ std::array<Vec3, 3> corners(const Surface &surface, std::int32_t triangle) {
   return {surface.points[std::size_t(t[0])], surface.points[std::size_t(t[1])], surface.points[std::size_t(t[2])]};
 }
 
-bool cross(const Surface &surface, std::int32_t a, std::int32_t b) {
-  return !triangles_apart(corners(surface, a).data(), surface.triangles[std::size_t(a)], corners(surface, b).data(),
-                          surface.triangles[std::size_t(b)]);
+bool cross(const Surface &surface, const TurnedBox &box_of_a, std::int32_t a, std::int32_t b) {
+  const std::array<Vec3, 3> first = corners(surface, a), second = corners(surface, b);
+  return !box_of_a.is_clear_of(second.data()) && !triangles_apart(first.data(), surface.triangles[std::size_t(a)],
+                                                                  second.data(), surface.triangles[std::size_t(b)]);
 }
 
 /// What the host calls the corners of a triangle.
@@ -48,9 +50,12 @@ std::pair<std::int32_t, std::int32_t> find_crossing(const Surface &surface, Tree
   const auto box = [&](std::int32_t t) { return box_of(surface.points, surface.triangles[std::size_t(t)]); };
   const auto first_partner = [&](std::size_t t) {
     std::int32_t first = none;
-    tree.for_near(std::int32_t(t), [&](std::int32_t other) {
-      const auto self = std::int32_t(t);
-      if (other > self && other < first && cross(surface, self, other) && !may_meet(self, other, box(self), box(other)))
+    const auto self = std::int32_t(t);
+    const std::array<Vec3, 3> own = corners(surface, self);
+    const TurnedBox turned_box({own.data(), own.size()});
+    tree.for_near(self, [&](std::int32_t other) {
+      if (other > self && other < first && cross(surface, turned_box, self, other) &&
+          !may_meet(self, other, box(self), box(other)))
         first = other;
     });
     return first;

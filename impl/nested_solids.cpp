@@ -39,18 +39,21 @@ class Nesting {
   Vec3 normal(std::int32_t t) const { return area_vector(surface_.points, surface_.triangles[std::size_t(t)]); }
   Vec3 middle(std::int32_t t) const { return (point(t, 0) + point(t, 1) + point(t, 2)) / 3.0; }
 
-  /// The triangle of each component that is the widest across x.
+  /// Twice the area of a triangle that rays see, positive where they come out of its material.
+  double width(std::int32_t t) const { return normal(t)[tree_.axis_of_rays()]; }
+
+  /// The triangle of each component that is the widest across rays.
   void find_widest(const SurfaceTopology &topology) {
     for (std::int32_t t = 0; t < std::int32_t(surface_.triangles.size()); t++) {
       std::int32_t &widest = widest_[std::size_t(topology.component[std::size_t(t)])];
-      if (widest < 0 || std::abs(normal(t).x) > std::abs(normal(widest).x)) widest = t;
+      if (widest < 0 || std::abs(width(t)) > std::abs(width(widest))) widest = t;
     }
   }
 
   /// A ray to the triangle comes out of material where that is behind it, and out of none otherwise. Exact, but that
   /// the middle is rounded.
   bool is_sound_by_ray(std::int32_t triangle) const {
-    return tree_.depth(middle(triangle), triangle) == int(normal(triangle).x > 0);
+    return tree_.depth(middle(triangle), triangle) == int(width(triangle) > 0);
   }
 
   /// The winding number in the middle of a triangle is one half where material is on one side and none on the other.

@@ -84,7 +84,9 @@ void Solids::find_crowded(Job &job) {
     const Triangle &triangle = surface_.triangles[t];
     return shells_[std::size_t(shell_of(triangle))].crowded ? box_of<3>(points_, triangle) : Box();
   };
-  triangles_.build(boxes_of(surface_.triangles.size(), job, crowded_box), 8, job);
+  Array<Box> boxes = boxes_of(surface_.triangles.size(), job, crowded_box);
+  axis_of_rays_ = axis_of_rays(boxes);
+  triangles_.build(std::move(boxes), 8, job);
 }
 
 /// A cavity belongs to the shell around it. False when a cavity is in none, or a solid in the material of another.
@@ -107,11 +109,11 @@ bool Solids::nest_shells(Job &job, DisjointSets &solids) {
 /// False when p lies on one. `own` is not asked.
 bool Solids::meet_shells(const Vec3 &p, std::int32_t own, Crossings &room) const {
   room.clear();
-  return !triangles_.any_overlap(ray_to(p, triangles_.box()), [&](std::int32_t triangle) {
+  return !triangles_.any_overlap(ray_to(p, triangles_.box(), axis_of_rays_), [&](std::int32_t triangle) {
     const Triangle &t = surface_.triangles[std::size_t(triangle)];
     if (shell_of(t) == own) return false;
-    const RayEnd end =
-        end_of_ray(points_[std::size_t(t[0])], points_[std::size_t(t[1])], points_[std::size_t(t[2])], p);
+    const TriangleInSpace met(points_, t);
+    const RayEnd end = end_of_ray(met.a, met.b, met.c, p, axis_of_rays_);
     if (end == RayEnd::entered) room.push_back({shell_of(t), 1});
     if (end == RayEnd::left) room.push_back({shell_of(t), -1});
     return end == RayEnd::at;

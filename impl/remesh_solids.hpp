@@ -53,6 +53,7 @@ class Solids {
   Array<Shell> shells_;
   KdTree boxes_;      // of the shells
   KdTree triangles_;  // of the crowded shells: a ray into no other's box leaves those as often as it comes into them
+  int axis_of_rays_ = 0;
   std::int32_t count_ = 1;
 };
 

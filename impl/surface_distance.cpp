@@ -17,7 +17,9 @@ double angle_between(const Vec3 &a, const Vec3 &b) { return std::atan2(glm::leng
 
 TriangleTree::TriangleTree(Span<const Vec3> points, Span<const Triangle> triangles, Job &job, std::int64_t leaf)
     : points_(points), triangles_(triangles), tree_(job.memory) {
-  tree_.build(boxes_of(triangles.size(), job, [&](std::size_t t) { return box_of(points, triangles[t]); }), leaf, job);
+  Array<Box> boxes = boxes_of(triangles.size(), job, [&](std::size_t t) { return box_of(points, triangles[t]); });
+  axis_of_rays_ = tetlod::axis_of_rays(boxes);
+  tree_.build(std::move(boxes), leaf, job);
 }
 
 /// Of those that are no farther than the root of `most2`, which becomes the square of its distance; else -1.
@@ -51,10 +53,10 @@ bool TriangleTree::is_within(const Vec3 &p, double most2, std::int32_t &near) co
 
 std::optional<int> TriangleTree::depth(const Vec3 &p, std::int32_t but) const {
   int depth = 0;
-  const bool meets = !tree_.empty() && tree_.any_overlap(ray_to(p, tree_.box()), [&](std::int32_t t) {
+  const bool meets = !tree_.empty() && tree_.any_overlap(ray_to(p, tree_.box(), axis_of_rays_), [&](std::int32_t t) {
     if (t == but) return false;
     const TriangleInSpace met = triangle(t);
-    const RayEnd end = end_of_ray(met.a, met.b, met.c, p);
+    const RayEnd end = end_of_ray(met.a, met.b, met.c, p, axis_of_rays_);
     depth += depth_gained(end);
     return end == RayEnd::at;
   });

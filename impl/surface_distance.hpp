@@ -40,6 +40,7 @@ class TriangleTree {
   /// In how much material p is, by the triangles, but for one, on a ray to it: exact. Nothing where it is on one of
   /// them.
   std::optional<int> depth(const Vec3 &p, std::int32_t but = -1) const;
+  int axis_of_rays() const { return axis_of_rays_; }
   /// visit(other) for the triangles whose boxes meet that of t, t among them; stops when it returns true, and says
   /// whether it did.
   template <class Visit>
@@ -62,6 +63,7 @@ class TriangleTree {
   Span<const Vec3> points_;
   Span<const Triangle> triangles_;
   KdTree tree_;
+  int axis_of_rays_;
 };
 
 /// That of a surface, which stays as it is, from when it is first asked for until it is dropped. For one thread at a
