@@ -9,6 +9,10 @@
 #include <vtkPoints.h>
 #include <vtkTypeInt32Array.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
 #include <stdexcept>
 
 #include "lent_array.hpp"
@@ -45,18 +49,24 @@ void fill_scalars(const tetlod::Context &context, const OriginalArrays &arrays, 
   grid.GetPointData()->SetScalars(values);
 }
 
-// Of points that are original ones, with the whole weight in their stencil.
-vtkSmartPointer<vtkUnsignedCharArray> flags_of_result(const tetlod::Context &context, vtkUnsignedCharArray &original,
-                                                      vtkIdType count) {
-  std::vector<std::int32_t> ids(4 * std::size_t(count));
-  std::vector<double> weights(ids.size());
-  context.fetch_stencil(0, {ids.data(), count, 4}, {weights.data(), count, 4});
+// Flagged points stay in their places, also where they became one with others.
+vtkSmartPointer<vtkUnsignedCharArray> flags_of_result(const OriginalArrays &arrays, vtkUnstructuredGrid &result) {
+  const auto place = [](vtkDataArray &points, vtkIdType v) {
+    return std::array<double, 3>{points.GetComponent(v, 0), points.GetComponent(v, 1), points.GetComponent(v, 2)};
+  };
+  const auto is_number = [](double x) { return std::isfinite(x); };
+  std::map<std::array<double, 3>, unsigned char> of_place;
+  for (vtkIdType v = 0; v < arrays.flags->GetNumberOfValues(); v++) {
+    if (arrays.flags->GetValue(v) == 0) continue;
+    const auto at = place(*arrays.points, v);
+    if (std::all_of(at.begin(), at.end(), is_number)) of_place[at] |= arrays.flags->GetValue(v);
+  }
   vtkNew<vtkUnsignedCharArray> flags;
-  flags->SetName(original.GetName());
-  flags->SetNumberOfValues(count);
-  for (vtkIdType i = 0; i < count; i++) {
-    const auto first = std::size_t(4 * i);
-    flags->SetValue(i, weights[first] == 1 ? original.GetValue(ids[first]) : static_cast<unsigned char>(0));
+  flags->SetName(arrays.flags->GetName());
+  flags->SetNumberOfValues(result.GetNumberOfPoints());
+  for (vtkIdType v = 0; v < flags->GetNumberOfValues(); v++) {
+    const auto found = of_place.find(place(*result.GetPoints()->GetData(), v));
+    flags->SetValue(v, found != of_place.end() ? found->second : static_cast<unsigned char>(0));
   }
   return flags;
 }
@@ -75,7 +85,7 @@ void fill_result(const tetlod::Context &context, const OriginalArrays &arrays, v
   fill_scalars(context, arrays, counts.points, grid);
   for (const CarriedArray &other : arrays.others)
     add(fetch_carried(context, other, counts.points), other.attribute, *grid.GetPointData());
-  if (arrays.flags != nullptr) grid.GetPointData()->AddArray(flags_of_result(context, *arrays.flags, counts.points));
+  if (arrays.flags != nullptr) grid.GetPointData()->AddArray(flags_of_result(arrays, grid));
   const auto of_cells = fetch_all(context, arrays.of_cells, counts.tets);
   for (std::size_t i = 0; i < of_cells.size(); i++)
     add(of_cells[i], arrays.of_cells.all[i].attribute, *grid.GetCellData());

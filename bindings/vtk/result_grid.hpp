@@ -23,7 +23,7 @@ struct OriginalArrays {
 
 // Fills the grid from the context's last result: points in double precision, in which their tets are known to be
 // positive; the steering field keeps its name, is the active scalars, and keeps its type if it is a float and nothing
-// bounds its error. Original points keep their flags, others have none.
+// bounds its error. Points at the places of flagged ones have their flags, others none.
 void fill_result(const tetlod::Context &context, const OriginalArrays &arrays, vtkUnstructuredGrid &grid);
 
 }  // namespace tetlod_vtk

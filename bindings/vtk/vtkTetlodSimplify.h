@@ -18,7 +18,7 @@
  * steer beside it; with MaxError all that steer come out as doubles. All other point and cell arrays of numbers, of up
  * to 64 components, ride along, but for global ids and ghost marks; point arrays of integers as means, which are
  * doubles. Input array 1 may name a point array of unsigned chars with the flags of tetlod.h (TETLOD_FLAG_KEEP,
- * TETLOD_FLAG_LOCK); points that stay keep theirs.
+ * TETLOD_FLAG_LOCK); points that stay keep theirs, as they do that become one with others.
  *
  * Arrays of floats or doubles are read in place, interleaved (AOS) or one component after another (SOA), as are 32 and
  * 64 bit connectivity; others are copied to doubles during the execution.

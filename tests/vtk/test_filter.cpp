@@ -13,7 +13,6 @@
 #include <vtkPointData.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkTypeInt64Array.h>
-#include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
 #include <limits>
@@ -256,31 +255,6 @@ TEST_F(Filter, GhostCellsAreLeftOut) {
   tetlod_mesh_report report{};
   report.struct_size = sizeof report;
   EXPECT_EQ(tetlod_check(filter->GetContext(), &report), TETLOD_ERR_STATE) << "the grid's arrays are let go of";
-}
-
-TEST_F(Filter, FlaggedPointsSurvive) {
-  const Grid grid = cube_grid();
-  constexpr vtkIdType kept = 3 * 49 + 3 * 7 + 3;  // the cube's middle
-  vtkNew<vtkUnsignedCharArray> flags;
-  flags->SetName("flags");
-  flags->SetNumberOfValues(grid->GetNumberOfPoints());
-  flags->FillValue(0);
-  flags->SetValue(kept, TETLOD_FLAG_KEEP);
-  grid->GetPointData()->AddArray(flags);
-  filter->SetInputData(grid);
-  filter->SetRho(1);
-  filter->SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "flags");
-  double middle[3] = {0.5, 0.5, 0.5}, found[3];
-  const vtkIdType nearest = updated()->FindPoint(middle);
-  ASSERT_GE(nearest, 0) << "no points";
-  filter->GetOutput()->GetPoint(nearest, found);
-  for (const double x : found) EXPECT_DOUBLE_EQ(x, 0.5);
-  auto *const left = vtkUnsignedCharArray::SafeDownCast(filter->GetOutput()->GetPointData()->GetArray("flags"));
-  ASSERT_NE(left, nullptr) << "another filter may take them";
-  for (vtkIdType v = 0; v < left->GetNumberOfTuples(); v++)
-    EXPECT_EQ(left->GetValue(v), v == nearest ? TETLOD_FLAG_KEEP : 0) << v;
-  filter->SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "heat");
-  expect_failure("heat", TETLOD_ERR_ARGUMENT);
 }
 
 TEST_F(Filter, TheErrorIsMeasuredWhenAskedFor) {
