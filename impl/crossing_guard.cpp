@@ -110,9 +110,9 @@ bool CrossingGuard::is_passed(const Star &star) const {
   const Box box = box_of(before_and_after);
   const TurnedBox turned_box(before_and_after);
   return tree_.any_overlap(box, [&](std::int32_t face) {
-    if (std::find(star.old_faces.begin(), star.old_faces.end(), face) != star.old_faces.end()) return false;
     const Other other(*this, face);
     if (turned_box.is_clear_of(other.point)) return false;
+    if (std::find(star.old_faces.begin(), star.old_faces.end(), face) != star.old_faces.end()) return false;
     if (may_meet_(star.old_faces[0], face, box, other.box)) return false;
     return other.meets(star) || passes_over(star, box, other);
   });

@@ -184,7 +184,21 @@ bool upright_plane_separates(const Corners &a, const Corners &b) {
   return false;
 }
 
-/// All of `b` but common vertices is on one side of the plane of `a`.
+/// All of `b` but common vertices is on one side of the plane of `a`, so clearly that rounding has no say: of surfaces
+/// that run side by side that decides soonest.
+bool plane_clearly_separates(const Corners &a, const Corners &b) {
+  Vec3 upward = a.normal;
+  bool separates = true, any = false;
+  for (int k = 0; k < 3 && separates; k++) {
+    if (a.has(b.corner(k))) continue;
+    if (!any && glm::dot(upward, b.point[k] - a.point[0]) < 0) upward = -upward;
+    any = true;
+    separates = clearly_outside(upward, a.point[0], b.point[k]);
+  }
+  return separates;
+}
+
+/// The same exactly.
 bool plane_separates(const Corners &a, const Corners &b) {
   int side = 0;
   for (int k = 0; k < 3; k++) {
@@ -237,6 +251,7 @@ bool triangles_apart(const Vec3 *first, const Triangle &first_ids, const Vec3 *s
   int common = 0;
   for (std::int32_t id : first_ids) common += b.has(id);
   if (common == 3) return false;
+  if (plane_clearly_separates(a, b) || plane_clearly_separates(b, a)) return true;
   if (upright_plane_separates(a, b) || (common < 2 && upright_plane_separates(b, a))) return true;
   if (common == 2) return hinge_is_open(a, b);
   return plane_separates(a, b) || plane_separates(b, a) || (edges_miss(a, b) && edges_miss(b, a));
