@@ -1,7 +1,7 @@
 // The box of some points along their own extent: that of thin things which lie askew to the axes is thin, too.
 #pragma once
 #include "geometry.hpp"
-#include "kd_tree.hpp"
+#include "box_pair.hpp"
 
 namespace tetlod {
 

@@ -96,7 +96,8 @@ TEST_P(KdTrees, FindOverlaps) {
       while (boxes.size() < count) boxes.push_back(random_box(lattice, 0.1 * lattice));
       const KdTree tree = built();
       for (int i = 0; i < 100; i++) expect_overlaps(tree, random_box(lattice, i % 2 ? lattice : 1));
-      expect_overlaps(tree, {Vec3(-1e9), Vec3(1e9)});
+      for (const double far : {1e9, std::numeric_limits<double>::infinity()})
+        expect_overlaps(tree, {Vec3(-far), Vec3(far)});
       expect_overlaps(tree, {Vec3(2.0 * lattice), Vec3(3.0 * lattice)});
     }
 }
