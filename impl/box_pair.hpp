@@ -4,11 +4,6 @@
 
 namespace tetlod {
 
-inline bool overlap(const Box &a, const Box &b) {
-  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y &&
-         a.low.z <= b.high.z && b.low.z <= a.high.z;
-}
-
 struct BoxPair {
   /// A number of each: processors reckon with both at once.
   using Both = double __attribute__((vector_size(2 * sizeof(double))));

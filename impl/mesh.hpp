@@ -149,6 +149,11 @@ struct Box {
   }
 };
 
+inline bool overlap(const Box &a, const Box &b) {
+  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y &&
+         a.low.z <= b.high.z && b.low.z <= a.high.z;
+}
+
 /// Of two that overlap.
 inline Box common(const Box &a, const Box &b) { return {glm::max(a.low, b.low), glm::min(a.high, b.high)}; }
 

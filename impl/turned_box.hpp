@@ -1,7 +1,6 @@
 // The box of some points along their own extent: that of thin things which lie askew to the axes is thin, too.
 #pragma once
 #include "geometry.hpp"
-#include "box_pair.hpp"
 
 namespace tetlod {
 
