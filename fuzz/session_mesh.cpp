@@ -273,7 +273,8 @@ void Session::check(const Disturbance &disturbance) {
   if (!complete() || disturbance.any() || !fields_fit()) return;
   const tetlod_status after = run({});
   if (after == TETLOD_ERR_MEMORY_LIMIT || after == TETLOD_ERR_TIME_LIMIT) return;
-  if (report.status == TETLOD_ERR_MESH_INTERSECTING && after == TETLOD_OK) return;  // decimation took the crossing away
+  const bool is_crossed = report.status == TETLOD_ERR_MESH_INTERSECTING;
+  if (is_crossed && (after == TETLOD_OK || after == TETLOD_ERR_MAX_ERROR)) return;    // no more so, or refused sooner
   if (after == TETLOD_ERR_BACKEND_MISSING && option(TETLOD_OPT_REMESH) == 0) return;  // before it looks at the mesh
   if (report.status != TETLOD_OK)
     DEMAND(after == report.status, "tetlod_check says %d, tetlod_run %d: %s", report.status, after, said_.c_str());
