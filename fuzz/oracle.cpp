@@ -176,6 +176,19 @@ Face other_side(const Face &face) { return {face[0], face[2], face[1]}; }
 
 }  // namespace
 
+bool are_side_by_side(const std::vector<Point> &points, const std::vector<Corners> &tets) {
+  std::set<std::pair<Face, int>> sides;
+  for (const Corners &tet : tets)
+    for (std::size_t k = 0; k < 4; k++) {
+      Face face = {tet[face_corners[k][0]], tet[face_corners[k][1]], tet[face_corners[k][2]]};
+      std::sort(face.begin(), face.end());
+      const auto at = [&](std::int64_t v) { return points[std::size_t(v)]; };
+      const int is_on = side(at(face[0]), at(face[1]), at(face[2]), at(tet[k]));
+      if (is_on != 0 && !sides.emplace(face, is_on).second) return false;
+    }
+  return true;
+}
+
 void check_corners(const std::vector<Corners> &tets, std::size_t points) {
   std::set<std::int64_t> used;
   for (const Corners &tet : tets) used.insert(tet.begin(), tet.end());

@@ -17,6 +17,9 @@ struct Fetched {
   std::vector<Face> boundary;
 };
 
+/// Of two tets on one face that are not flat, there is one on either side; where there is not, points may be moved.
+bool are_side_by_side(const std::vector<Point> &points, const std::vector<Corners> &tets);
+
 /// Every corner is a point, and every point a corner.
 void check_corners(const std::vector<Corners> &tets, std::size_t points);
 /// det(p1 - p0, p2 - p0, p3 - p0) > 0 as doubles compute it, after an exact scaling to one.
