@@ -224,7 +224,8 @@ void Session::check_report(const Mesh &mesh, const Facts &facts) const {
              1);
   DEMAND(report.scalar_min == facts.values.low && report.scalar_max == facts.values.high,
          "the report has the range of the values");
-  if (option(TETLOD_OPT_TARGET_RATIO) > 0 || option(TETLOD_OPT_MAX_ERROR) > 0) return;  // vertices have moved
+  const bool is_sized = option(TETLOD_OPT_TARGET_RATIO) > 0 || option(TETLOD_OPT_MAX_ERROR) > 0;
+  if (is_sized || report.moved_points > 0) return;  // vertices have moved
   std::vector<std::pair<Point, double>> original;
   for (std::size_t v = 0; v < mesh.points.size(); v++) original.emplace_back(mesh.points[v], mesh.values[v]);
   const auto first = std::size_t(report.boundary_points_out);
