@@ -59,7 +59,7 @@ class PointTable {
   }
 
   Array<std::int32_t> first_, next_;
-  Array<std::uint32_t> slots_;  // of each point: looked for by all threads, what follows is for one
+  Array<std::uint32_t> slots_;  // of each point, found by all threads
 };
 
 std::int32_t find_equal(const PointTable &table, Span<const Vec3> points, std::int32_t v) {

@@ -134,6 +134,19 @@ void add_inner(const MeshView &original, double most, Job &job, Array<Probe<m>> 
   });
 }
 
+/// solid: as above.
+template <std::size_t m>
+void add_probes(const MeshView &original, const ProbeOptions &options, Job &job, AdaptiveMesh<m> &mesh,
+                Array<std::int32_t> &solid) {
+  mesh.probes.reserve(expected_probes(original, options));
+  add_vertices(original, options.most_vertices, job, mesh);
+  mesh.vertex_probes = mesh.probes.size();
+  mesh.vertex_weight = options.vertex_weight;
+  if (!original.solid.empty())
+    for (const std::int32_t v : mesh.vertex_of_probe) solid.push_back(original.solid[std::size_t(v)]);
+  if (options.most_inner > 0) add_inner(original, options.most_inner, job, mesh.probes, solid);
+}
+
 /// The nearest point of the boundary, as nearest() finds it, of a point that was found in no tet (t is -1), or a little
 /// outside of tet t, and of all, as that point is no farther off. Where it is farther, rounding has left a gap between
 /// tets: none then.
@@ -256,19 +269,9 @@ void place_probes(const MeshView &original, const ProbeOptions &options, Job &jo
   mesh.probes.clear();
   mesh.vertex_of_probe.clear();
   mesh.outside.clear();
-  mesh.probes.reserve(expected_probes(original, options));
   Array<std::int32_t> solid(&job.memory);  // of each probe, where solids are in contact
   std::optional<TetLocator> locator;
-  job.parallel.at_once(
-      [&] {
-        add_vertices(original, options.most_vertices, job, mesh);
-        mesh.vertex_probes = mesh.probes.size();
-        if (!original.solid.empty())
-          for (const std::int32_t v : mesh.vertex_of_probe) solid.push_back(original.solid[std::size_t(v)]);
-        if (options.most_inner > 0) add_inner(original, options.most_inner, job, mesh.probes, solid);
-      },
-      [&] { locator.emplace(mesh, job); });
-  mesh.vertex_weight = options.vertex_weight;
+  job.parallel.at_once([&] { add_probes(original, options, job, mesh, solid); }, [&] { locator.emplace(mesh, job); });
   const SolidsOfTets solids(mesh, original.solid, job);
   Array<std::int32_t> home = find_homes(*locator, solids, solid, job, mesh);
   locator.reset();

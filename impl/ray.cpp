@@ -1,6 +1,7 @@
 #include "ray.hpp"
 
 #include "predicates.hpp"
+#include "whole_arrays.hpp"
 
 namespace tetlod {
 
@@ -14,11 +15,25 @@ int side(const Vec3 &a, const Vec3 &b, const Vec3 &p, int i, int j) {
   return int(a[i] < b[i]) - int(a[i] > b[i]);
 }
 
-/// What is seen of a box along each axis.
-Vec3 shadows(const Box &box) {
-  const Vec3 extent = box.high - box.low;
-  return {extent.y * extent.z, extent.z * extent.x, extent.x * extent.y};
-}
+/// Boxes, and what is seen of them along each axis, one beside another.
+struct Seen {
+  Box whole;
+  Vec3 areas{0};
+
+  void add(const Box &box) {
+    if (!(box.low.x <= box.high.x)) return;
+    whole.add(box);
+    areas += areas_of(box);
+  }
+  void add(const Seen &other) {
+    whole.add(other.whole);
+    areas += other.areas;
+  }
+  static Vec3 areas_of(const Box &box) {
+    const Vec3 extent = box.high - box.low;
+    return {extent.y * extent.z, extent.z * extent.x, extent.x * extent.y};
+  }
+};
 
 }  // namespace
 
@@ -32,15 +47,11 @@ RayEnd end_of_ray(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &p, in
   return facing < 0 ? RayEnd::entered : RayEnd::left;
 }
 
-int axis_of_rays(Span<const Box> boxes) {
-  Box whole;
-  Vec3 sum(0);
-  for (const Box &box : boxes) {
-    if (!(box.low.x <= box.high.x)) continue;
-    whole.add(box);
-    sum += shadows(box);
-  }
-  const Vec3 met = sum / shadows(whole);
+int axis_of_rays(Span<const Box> boxes, Job &job) {
+  Seen all;
+  const auto add = [&](Seen &part, std::size_t i) { part.add(boxes[i]); };
+  for (const Seen &part : parts_of(boxes.size(), Seen(), job, add)) all.add(part);
+  const Vec3 met = all.areas / Seen::areas_of(all.whole);
   int axis = 0;
   for (int k = 1; k < 3; k++)
     if (met[k] < met[axis]) axis = k;

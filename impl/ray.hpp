@@ -1,6 +1,7 @@
 // A ray that comes along an axis to a point, and the triangles of a surface on its way: exact, and never through an
 // edge.
 #pragma once
+#include "job.hpp"
 #include "mesh.hpp"
 
 namespace tetlod {
@@ -24,6 +25,6 @@ inline Box ray_to(const Vec3 &p, const Box &from, int axis = 0) {
 
 /// The axis along which rays meet the fewest of these boxes, on the average: of parts in a row not that of the row.
 /// Empty boxes do not count.
-int axis_of_rays(Span<const Box> boxes);
+int axis_of_rays(Span<const Box> boxes, Job &job);
 
 }  // namespace tetlod

@@ -85,7 +85,7 @@ void Solids::find_crowded(Job &job) {
     return shells_[std::size_t(shell_of(triangle))].crowded ? box_of<3>(points_, triangle) : Box();
   };
   Array<Box> boxes = boxes_of(surface_.triangles.size(), job, crowded_box);
-  axis_of_rays_ = axis_of_rays(boxes);
+  axis_of_rays_ = axis_of_rays(boxes, job);
   triangles_.build(std::move(boxes), 8, job);
 }
 

@@ -18,7 +18,7 @@ double angle_between(const Vec3 &a, const Vec3 &b) { return std::atan2(glm::leng
 TriangleTree::TriangleTree(Span<const Vec3> points, Span<const Triangle> triangles, Job &job, std::int64_t leaf)
     : points_(points), triangles_(triangles), tree_(job.memory) {
   Array<Box> boxes = boxes_of(triangles.size(), job, [&](std::size_t t) { return box_of(points, triangles[t]); });
-  axis_of_rays_ = tetlod::axis_of_rays(boxes);
+  axis_of_rays_ = tetlod::axis_of_rays(boxes, job);
   tree_.build(std::move(boxes), leaf, job);
 }
 

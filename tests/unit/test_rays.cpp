@@ -63,6 +63,7 @@ TEST(Rays, EndAtATriangleThatThePointIsOn) {
 }
 
 TEST(Rays, OfBoxesSideBySideGoAcross) {
+  Host host;
   for (int axis = 0; axis < 3; axis++) {
     std::vector<Box> boxes(1);  // an empty one, which does not count
     for (int i = 0; i < 5; i++) {
@@ -72,7 +73,7 @@ TEST(Rays, OfBoxesSideBySideGoAcross) {
       box.low[axis] += 2 * i, box.high[axis] += 2 * i;
       boxes.push_back(box);
     }
-    EXPECT_NE(axis_of_rays({boxes.data(), boxes.size()}), axis);
+    EXPECT_NE(axis_of_rays({boxes.data(), boxes.size()}, host.job), axis);
   }
 }
 
