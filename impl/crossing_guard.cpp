@@ -106,7 +106,7 @@ bool CrossingGuard::is_passed(const Star &star) const {
   Few<Vec3, 3 * (longest_ring + 2) + 1> before_and_after;
   before_and_after.push(star.centre);
   for (std::int32_t face : star.old_faces)
-    for (const Vec3 &p : Other(*this, face).point) before_and_after.push(p);
+    for (std::int32_t v : triangles_[std::size_t(face)]) before_and_after.push(points_[std::size_t(v)]);
   const Box box = box_of(before_and_after);
   const TurnedBox turned_box(before_and_after);
   return tree_.any_overlap(box, [&](std::int32_t face) {

@@ -21,11 +21,28 @@ std::array<Vec3, 3> corners(const Surface &surface, std::int32_t triangle) {
   return {surface.points[std::size_t(t[0])], surface.points[std::size_t(t[1])], surface.points[std::size_t(t[2])]};
 }
 
-bool cross(const Surface &surface, const TurnedBox &box_of_a, std::int32_t a, std::int32_t b) {
-  const std::array<Vec3, 3> first = corners(surface, a), second = corners(surface, b);
-  return !box_of_a.is_clear_of(second.data()) && !triangles_apart(first.data(), surface.triangles[std::size_t(a)],
-                                                                  second.data(), surface.triangles[std::size_t(b)]);
-}
+/// One that others may cross: what is known of it is found once.
+class Candidate {
+ public:
+  Candidate(const Surface &surface, std::int32_t triangle)
+      : surface_(surface),
+        triangle_(triangle),
+        corners_(corners(surface, triangle)),
+        box_({corners_.data(), corners_.size()}) {}
+
+  bool is_crossed_by(std::int32_t other) const {
+    const std::array<Vec3, 3> second = corners(surface_, other);
+    return !box_.is_clear_of(second.data()) &&
+           !triangles_apart(corners_.data(), surface_.triangles[std::size_t(triangle_)], second.data(),
+                            surface_.triangles[std::size_t(other)]);
+  }
+
+ private:
+  const Surface &surface_;
+  std::int32_t triangle_;
+  std::array<Vec3, 3> corners_;
+  TurnedBox box_;
+};
 
 /// What the host calls the corners of a triangle.
 std::array<long long, 3> names(const Surface &surface, std::int32_t triangle, const HostNumbers &numbers) {
@@ -51,10 +68,9 @@ std::pair<std::int32_t, std::int32_t> find_crossing(const Surface &surface, Tree
   const auto first_partner = [&](std::size_t t) {
     std::int32_t first = none;
     const auto self = std::int32_t(t);
-    const std::array<Vec3, 3> own = corners(surface, self);
-    const TurnedBox turned_box({own.data(), own.size()});
+    const Candidate candidate(surface, self);
     tree.for_near(self, [&](std::int32_t other) {
-      if (other > self && other < first && cross(surface, turned_box, self, other) &&
+      if (other > self && other < first && candidate.is_crossed_by(other) &&
           !may_meet(self, other, box(self), box(other)))
         first = other;
     });

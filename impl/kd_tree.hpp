@@ -66,6 +66,7 @@ class KdTree {
   /// visit(item) for every item whose box overlaps; stops when visit returns true, and says whether it did.
   template <class Visit>
   bool any_overlap(const Box &box, const Visit &visit) const {
+    // A box without end overlaps an empty one, too.
     const auto stops_at = [&](std::size_t i) { return items_[i] >= 0 && visit(items_[i]); };
     std::int32_t stack[max_depth];
     int top = 0;
