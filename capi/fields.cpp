@@ -36,11 +36,13 @@ Field &slot_of(const std::string &name, std::vector<Field> &fields) {
   return found != fields.end() ? *found : fields.emplace_back();
 }
 
-/// A name is one field: where it is another's, that one goes. Cannot fail.
+/// A name is one field: where it is another's, that one goes, and this is true. Cannot fail.
 template <class Field>
-void forget(const std::string &name, std::vector<Field> &fields) {
-  fields.erase(std::remove_if(fields.begin(), fields.end(), [&](const Field &field) { return field.name == name; }),
-               fields.end());
+bool forget(const std::string &name, std::vector<Field> &fields) {
+  const auto end = std::remove_if(fields.begin(), fields.end(), [&](const Field &field) { return field.name == name; });
+  const bool was_there = end != fields.end();
+  fields.erase(end, fields.end());
+  return was_there;
 }
 
 template <class Field>
@@ -155,6 +157,16 @@ tetlod_status tetlod_submit_steering(tetlod_context *handle, const char *name, d
       put(SteeringField{name, weight, checked}, context.input);
     else
       put(SubmittedField{name, Association::point, checked}, context.input);
+  });
+}
+
+tetlod_status tetlod_withdraw_field(tetlod_context *handle, const char *name) {
+  return entry(handle, [&](tetlod_context &context) {
+    require_name(name);
+    Input &input = context.input;
+    if (!forget(name, input.fields) && !forget(name, input.steering))
+      fail(Status::argument, "field %.100s is not submitted, but to ride along %.200s, to steer %.200s", name,
+           names_of(input.fields).c_str(), names_of(input.steering).c_str());
   });
 }
 

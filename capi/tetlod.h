@@ -26,8 +26,8 @@
  *              TETLOD_ERR_STATE, or ignored. A C++ exception that leaves one ends the run with TETLOD_ERR_CANCELLED.
  *   Memory     Submitted arrays are borrowed: they are read during tetlod_run(), tetlod_check(), calls that estimate,
  *              measure or count, and the first tetlod_fetch_stencil() or tetlod_transfer() of a result, never
- *              written, and must live, unchanged in place and shape, until the same slot is submitted again,
- *              tetlod_clear(), or tetlod_destroy(). Only the bytes that an array describes are read or written.
+ *              written, and must live, unchanged in place and shape, until the same slot is submitted again or
+ *              withdrawn, tetlod_clear(), or tetlod_destroy(). Only bytes that an array describes are read or written.
  *   Host       The library never prints, exits, aborts, installs signal handlers, or touches rand(), the locale, the
  *              floating-point state or the environment, and no C++ exception leaves it. TetGen runs in a child process,
  *              tetlod-remesh, until tetlod_destroy(); a host that waits for all of its children waits for it, too.
@@ -377,12 +377,13 @@ TETLOD_API tetlod_status tetlod_submit_field(tetlod_context *context, const char
  * What of a run looks at the scalars looks at all of them: an error of this field counts weight times its part of the
  * field's own range, one of the scalars its part of theirs. The samples of the paper [3.1] follow the largest variation
  * of any, as weighted; TETLOD_OPT_MAX_ERROR holds for each, relative to its own range, whatever its weight. weight: 0
- * to 1e6; 0: the field rides along, as by tetlod_submit_field. name is copied, not empty, and not that of the scalars:
- * a name is one field, and what is submitted last under it, here or by tetlod_submit_field, replaces what was. The
- * result has its values, fitted or interpolated as the scalars, for tetlod_fetch_field. TETLOD_ERR_ARGUMENT also for a
- * weight out of its bounds (NaN is) and a fourth field. */
+ * to 1e6; 0: it rides along. name is copied, not empty, and not that of the scalars: a name is one field, what is
+ * submitted last under it, here or by tetlod_submit_field. The result has its values, fitted or interpolated as the
+ * scalars, for tetlod_fetch_field. TETLOD_ERR_ARGUMENT also for a weight out of its bounds (NaN is), a fourth field. */
 TETLOD_API tetlod_status tetlod_submit_steering(tetlod_context *context, const char *name, double weight,
                                                 const tetlod_array *values);
+/* Takes a field of these two back: its array may go. TETLOD_ERR_ARGUMENT where none of that name is submitted. */
+TETLOD_API tetlod_status tetlod_withdraw_field(tetlod_context *context, const char *name);
 enum {
   TETLOD_FLAG_KEEP = 1, /* the vertex survives, with its place and value, unless it is ignored: no tet left, no value */
   TETLOD_FLAG_LOCK = 2  /* the same, for an interface of partitions: triangles and edges of the boundary between locked
@@ -447,8 +448,7 @@ TETLOD_API tetlod_status tetlod_histogram(const tetlod_context *context, int32_t
 
 /* ---- Fetching the result ---------------------------------------------------------------------------------------- */
 
-/* Sizes of the last result; each pointer may be NULL. TETLOD_ERR_STATE before the first successful run, as for all that
- * follow. */
+/* Sizes of the last result; each pointer may be NULL. TETLOD_ERR_STATE, for all that follow: no run succeeded yet. */
 TETLOD_API tetlod_status tetlod_fetch_counts(const tetlod_context *context, int64_t *points, int64_t *tets,
                                              int64_t *boundary_triangles);
 /* These copy into the caller's memory. dst says type, strides and room (tuples at least the result's count, otherwise

@@ -125,6 +125,8 @@ class Session {
   bool undisturbed_success_expected(const Mesh &mesh) const;
   void check_target() const;
 
+  void withdraw(const std::string &name);
+  bool forget_field(const std::string &name);
   std::vector<std::pair<std::string, Block *>> steering() const;
   void check_steered(const Carried &field) const;
   bool fields_fit() const;

@@ -61,11 +61,26 @@ void Session::submit_field(Bytes &in) {
   const tetlod_status status = tetlod_submit_field(context_, name, association, &array);
   const bool good = *name && association < 2;
   DEMAND(status == (good ? TETLOD_OK : TETLOD_ERR_ARGUMENT), "a field is taken in every layout: %d", status);
+  if (!good && *name) withdraw(name);
   if (!good) return;
   trace("field %s of %s, %ld x %d\n", name, association ? "cells" : "points", long(tuples), array.components);
-  const auto same_name = [&](const Field &field) { return field.name == name; };
-  fields_.erase(std::remove_if(fields_.begin(), fields_.end(), same_name), fields_.end());
+  forget_field(name);
   fields_.push_back({name, association, values});
+}
+
+bool Session::forget_field(const std::string &name) {
+  const auto same_name = [&](const Field &field) { return field.name == name; };
+  const auto end = std::remove_if(fields_.begin(), fields_.end(), same_name);
+  const bool was_there = end != fields_.end();
+  fields_.erase(end, fields_.end());
+  return was_there;
+}
+
+void Session::withdraw(const std::string &name) {
+  const tetlod_status expected = forget_field(name) ? TETLOD_OK : TETLOD_ERR_ARGUMENT;
+  const tetlod_status status = tetlod_withdraw_field(context_, name.c_str());
+  DEMAND(status == expected, "a field that is there is withdrawn, no other: %d", status);
+  trace("field %s withdrawn: %d\n", name.c_str(), status);
 }
 
 void Session::submit_steering(Bytes &in) {
@@ -85,7 +100,7 @@ void Session::submit_steering(Bytes &in) {
   DEMAND(status == (good ? TETLOD_OK : TETLOD_ERR_ARGUMENT), "a field that steers is taken: %d", status);
   if (!good) return;
   trace("field %s steers with weight %g\n", name.c_str(), weight);
-  fields_.erase(std::remove_if(fields_.begin(), fields_.end(), same_name), fields_.end());
+  forget_field(name);
   fields_.push_back({name, TETLOD_POINT_FIELD, values, weight});
 }
 

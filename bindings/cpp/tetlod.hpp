@@ -208,6 +208,7 @@ class Context {
   void submit_steering(const std::string &name, double weight, const Source &values) {
     require(tetlod_submit_steering(handle_, name.c_str(), weight, &values.array));
   }
+  void withdraw_field(const std::string &name) { require(tetlod_withdraw_field(handle_, name.c_str())); }
   void submit_point_flags(const Source &flags) { require(tetlod_submit_point_flags(handle_, &flags.array)); }
   void clear() { require(tetlod_clear(handle_)); }
 

@@ -172,6 +172,11 @@ module tetlod_c
       type(tetlod_array), intent(in) :: values
       integer(c_int32_t) :: status
     end function
+    function c_withdraw_field(context, name) result(status) bind(C, name="tetlod_withdraw_field")
+      import
+      type(c_ptr), value :: context, name
+      integer(c_int32_t) :: status
+    end function
     function c_submit_point_flags(context, flags) result(status) bind(C, name="tetlod_submit_point_flags")
       import
       type(c_ptr), value :: context

@@ -4,7 +4,7 @@ module tetlod_fields_of_result
   use, intrinsic :: iso_fortran_env, only: int8, int32, int64, real32, real64
   use tetlod_arrays, only: array_of
   use tetlod_c, only: c_fetch_field, c_fetch_stencil, c_submit_field, c_submit_point_flags, c_submit_steering, &
-    c_transfer
+    c_transfer, c_withdraw_field
   use tetlod_submission, only: tetlod_input
   use tetlod_text, only: c_text
   use tetlod_types, only: tetlod_array
@@ -19,6 +19,7 @@ module tetlod_fields_of_result
     generic :: fetch_stencil => fetch_stencil_i32, fetch_stencil_i64
     generic :: transfer => transfer_r32, transfer_r64, transfer_i8, transfer_i32, transfer_i64
     procedure :: submit_point_flags
+    procedure :: withdraw_field
     procedure, private :: submit_field_r32, submit_field_r64, submit_field_i8, submit_field_i32, submit_field_i64
     procedure, private :: fetch_field_r32, fetch_field_r64, fetch_field_i8, fetch_field_i32, fetch_field_i64
     procedure, private :: submit_steering_r32, submit_steering_r64
@@ -35,6 +36,17 @@ contains
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
     call this%settle(c_submit_point_flags(this%c_handle(), array_of(flags)), stat, errmsg)
+  end subroutine
+
+  ! Of submit_field or submit_steering: its array may go.
+  subroutine withdraw_field(this, name, stat, errmsg)
+    class(tetlod_fields), intent(inout) :: this
+    character(len=*), intent(in) :: name
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    character(kind=c_char), target :: text(len_trim(name) + 1)
+    text = c_text(name)
+    call this%settle(c_withdraw_field(this%c_handle(), c_loc(text)), stat, errmsg)
   end subroutine
 
   ! ---- What all kinds have in common

@@ -160,6 +160,7 @@ static void check_bad_handle(tetlod_context *bad, const char *words) {
   BAD(tetlod_submit_scalars(bad, NULL, &array));
   BAD(tetlod_submit_field(bad, "u", TETLOD_POINT_FIELD, &array));
   BAD(tetlod_submit_steering(bad, "u", 1, &array));
+  BAD(tetlod_withdraw_field(bad, "u"));
   BAD(tetlod_submit_point_flags(bad, &array));
   BAD(tetlod_clear(bad));
   BAD(tetlod_check(bad, &mesh));

@@ -258,6 +258,40 @@ TEST_F(Steering, ANameIsOneField) {
   EXPECT_EQ(fetch("z", 1, points_out()), steered);
 }
 
+TEST_F(Steering, WithdrawnFieldsAreGoneAndTheMeshIsStillKnown) {
+  run();
+  const auto alone = bytes_of(context.get());
+  {
+    const std::vector<double> steering = z, carried(3 * points(), 4);  // which are no more when it runs again
+    ASSERT_EQ(steer("steering", 1, steering), TETLOD_OK);
+    ASSERT_EQ(carry("carried", carried, 3), TETLOD_OK);
+    run();
+    EXPECT_NE(bytes_of(context.get()), alone);
+    ASSERT_EQ(tetlod_withdraw_field(context.get(), "steering"), TETLOD_OK);
+    ASSERT_EQ(tetlod_withdraw_field(context.get(), "carried"), TETLOD_OK);
+    EXPECT_EQ(fetch("carried", 3, points_out()), std::vector<double>(3 * points_out(), 4)) << "the result has it";
+  }
+  run();
+  EXPECT_EQ(bytes_of(context.get()), alone);
+  EXPECT_EQ(report().reused_tets, report().tets_in);
+  double room = 0;
+  tetlod_array array = array_of(TETLOD_FLOAT64, 1, 1, &room);
+  expect_failure(tetlod_fetch_field(context.get(), "carried", &array), TETLOD_ERR_ARGUMENT, "carried no field carried");
+}
+
+TEST_F(Steering, WhatCannotBeWithdrawn) {
+  ASSERT_EQ(steer("a", 1, x), TETLOD_OK);
+  ASSERT_EQ(carry("b", z, 1), TETLOD_OK);
+  ASSERT_EQ(carry("c", z, 1), TETLOD_OK);
+  expect_failure(tetlod_withdraw_field(context.get(), "u"), TETLOD_ERR_ARGUMENT,
+                 "field u is not submitted, but to ride along b, c, to steer a");
+  expect_failure(tetlod_withdraw_field(context.get(), "heat"), TETLOD_ERR_ARGUMENT, "field heat");
+  expect_failure(tetlod_withdraw_field(context.get(), ""), TETLOD_ERR_ARGUMENT, "name is empty");
+  expect_failure(tetlod_withdraw_field(context.get(), nullptr), TETLOD_ERR_ARGUMENT, "name is NULL");
+  run();
+  EXPECT_EQ(fetch("b", 1, points_out()).size(), points_out());
+}
+
 TEST_F(Steering, WhatIsRefused) {
   expect_failure(steer("z", -1, z), TETLOD_ERR_ARGUMENT, "field z: weight -1 is not in [0, 1e+06]");
   expect_failure(steer("z", nan_value, z), TETLOD_ERR_ARGUMENT, "field z: weight nan");

@@ -46,6 +46,10 @@ TEST(Wrapper, AFurtherFieldSteers) {
   lod.fetch_field("x", {x.data(), std::int64_t(x.size())});
   for (std::size_t i = 0; i < x.size(); i++) EXPECT_NEAR(x[i], lod.view_points()(std::int64_t(i), 0), 1e-6);
   EXPECT_THROW(lod.submit_steering("x", -1, {second.data(), cube.points()}), tetlod::Error);
+  lod.withdraw_field("x");
+  lod.run();
+  EXPECT_EQ(lod.fetch_report().selected_samples, alone);
+  EXPECT_THROW(lod.withdraw_field("x"), tetlod::Error);
 }
 
 TEST(Wrapper, FetchesIntoStridedMemory) {

@@ -141,6 +141,13 @@ contains
     call expect(all(abs(small(1, :) - points(3, :)) < 1d-6), "real32 steers")
     call lod%submit_steering("single", -1d0, single, stat=stat, errmsg=message)
     call expect(stat == TETLOD_ERR_ARGUMENT .and. index(message, "weight -1") > 0, "a weight: "//message)
+    call lod%withdraw_field("single")
+    call lod%withdraw_field("double")
+    call lod%run()
+    call lod%fetch_report(both)
+    call expect(both%selected_samples == alone%selected_samples, "samples follow withdrawn fields no more")
+    call lod%withdraw_field("double", stat=stat, errmsg=message)
+    call expect(stat == TETLOD_ERR_ARGUMENT .and. index(message, "double") > 0, "none to withdraw: "//message)
     call lod%destroy()
   end subroutine
 

@@ -79,6 +79,7 @@ contains
     call none%submit_field("f", TETLOD_POINT_FIELD, i64, stat, message); call told("submit_field of int64")
     call none%submit_steering("s", 1d0, r32(1, :), stat, message); call told("submit_steering of real32")
     call none%submit_steering("s", 1d0, r64(1, :), stat, message); call told("submit_steering of real64")
+    call none%withdraw_field("f", stat, message); call told("withdraw_field")
     call none%submit_point_flags(i8(1, :), stat, message); call told("submit_point_flags")
     call none%clear(stat, message); call told("clear")
     report%tets = 7; bytes = 7
