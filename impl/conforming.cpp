@@ -38,6 +38,15 @@ bool close_gaps(Job &job, NumberedTets &tets, bool inside_too) {
   return tets.find_boundary(job);
 }
 
+/// Solids hang together, and none touches itself that did not before: thin ones have faces that only look like a gap's.
+bool are_no_worse(const NumberedTets &tets, const MeshView &before, const Boundary &boundary, Job &job) {
+  const auto are_sound = [&](MayTouch may_touch) {
+    return is_sound(tets.view(), tets.boundary.triangles, may_touch, job);
+  };
+  return are_sound(MayTouch::itself) &&
+         (are_sound(MayTouch::nothing) || !is_sound(before, boundary.triangles, MayTouch::nothing, job));
+}
+
 bool have_same_vertices(Tet one, Tet other) {
   std::sort(one.begin(), one.end());
   std::sort(other.begin(), other.end());
@@ -68,7 +77,7 @@ void take_replaced(const NumberedTets &tets, Job &job, Original &original) {
 void make_conforming(Job &job, Boundary &boundary, Original &original) {
   if (!has_gaps(original.view, boundary, job)) return;
   NumberedTets tets(original.view, original.tet_number, job.memory);
-  if (!close_gaps(job, tets, true) || !is_sound(tets.view(), tets.boundary.triangles, MayTouch::itself, job)) return;
+  if (!close_gaps(job, tets, true) || !are_no_worse(tets, original.view, boundary, job)) return;
   tets.boundary.flat_tets += boundary.flat_tets;
   tets.boundary.duplicate_tets += boundary.duplicate_tets;
   boundary = std::move(tets.boundary);
