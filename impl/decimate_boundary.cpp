@@ -8,9 +8,7 @@
 #include "collapse_rules.hpp"
 #include "edge_queue.hpp"
 #include "field_quadric.hpp"
-#include "half_edges.hpp"
-#include "lindstrom_turk.hpp"
-#include "whole_arrays.hpp"
+#include "vertex_sums.hpp"
 
 namespace tetlod {
 
@@ -103,8 +101,7 @@ class Decimator {
       touching_.push_back(topology.touching[i]);
       locked_.push_back(topology.touching[i] || (!locked.empty() && locked[i]));
     }
-    grow(volume_, point_.size(), job_);
-    grow(link_, point_.size(), job_);
+    sums_.resize(point_.size(), job_);
   }
 
   void copy_triangles(const SurfaceTopology &topology) {
@@ -125,14 +122,9 @@ class Decimator {
   const Vec3 &point(VertexHandle v) const { return point_[std::size_t(v.idx())]; }
 
   void update_sums(VertexHandle v) {
-    VolumeSums volume;
-    LinkSums link;
-    for_each_around(mesh_, v, [&](HalfedgeHandle h) {
-      volume.add(at(plane_, mesh_.face_handle(h)));
-      link.add(point(mesh_.to_vertex_handle(h)));
-    });
-    at(volume_, v) = volume;
-    at(link_, v) = link;
+    sums_.update(
+        mesh_, v, [&](HalfedgeHandle h) { return at(plane_, mesh_.face_handle(h)); },
+        [&](HalfedgeHandle h) { return point(mesh_.to_vertex_handle(h)); });
   }
 
   // ---- Placement and cost
@@ -146,8 +138,7 @@ class Decimator {
   LinkSums link_of(HalfedgeHandle h) const {
     const HalfedgeHandle o = mesh_.opposite_halfedge_handle(h);
     const VertexHandle from = mesh_.from_vertex_handle(h), to = mesh_.to_vertex_handle(h);
-    LinkSums link = at(link_, from);
-    link.add(at(link_, to));
+    LinkSums link = sums_.link(from.idx(), to.idx());
     for (VertexHandle v : {from, to, apex(mesh_, h), apex(mesh_, o)}) link.add(point(v), -1);
     return link;
   }
@@ -157,8 +148,7 @@ class Decimator {
     const VertexHandle from = mesh_.from_vertex_handle(h), to = mesh_.to_vertex_handle(h);
     const double length2_e = length2(point(to) - point(from));
     const LinkSums link = link_of(h);
-    VolumeSums volume = at(volume_, from);
-    volume.add(at(volume_, to));
+    VolumeSums volume = sums_.volume(from.idx(), to.idx());
     for (HalfedgeHandle side : {h, o}) volume.add(at(plane_, mesh_.face_handle(side)), -1);
     const VertexHandle fixed = at(locked_, from) ? from : at(locked_, to) ? to : VertexHandle();
     if (fixed.is_valid() && changes_volume(volume, point(fixed), length2_e))
@@ -227,7 +217,7 @@ class Decimator {
   /// topology.
   bool leaves_pillow(HalfedgeHandle h) const {
     const HalfedgeHandle o = mesh_.opposite_halfedge_handle(h);
-    return at(link_, apex(mesh_, h)).count <= 3 || at(link_, apex(mesh_, o)).count <= 3;
+    return sums_.neighbours(apex(mesh_, h).idx()) <= 3 || sums_.neighbours(apex(mesh_, o).idx()) <= 3;
   }
 
   /// `to`, where the surface touches itself, would get an edge that another sheet has or may get: to a vertex that is
@@ -247,6 +237,7 @@ class Decimator {
 
   /// Fills star_; false when the link is too long to bother.
   bool look_around(HalfedgeHandle h, const Vec3 &centre) {
+    if (sums_.is_hub(mesh_.from_vertex_handle(h).idx()) || sums_.is_hub(mesh_.to_vertex_handle(h).idx())) return false;
     star_.clear();
     star_.centre = centre;
     star_.centre_id = std::int32_t(surface_.points.size());
@@ -319,13 +310,17 @@ class Decimator {
   void update_around(VertexHandle centre) {
     for_each_around(mesh_, centre, [&](HalfedgeHandle h) { update_face(h); });
     update_sums(centre);
-    for_each_around(mesh_, centre, [&](HalfedgeHandle h) { update_sums(mesh_.to_vertex_handle(h)); });
+    for_each_around(mesh_, centre, [&](HalfedgeHandle h) {
+      const VertexHandle v = mesh_.to_vertex_handle(h);
+      if (!sums_.stays_hub(v.idx())) update_sums(v);
+    });
     now_++;
-    if (quadrics_.empty() || by_length_) {
-      for_each_around(mesh_, centre, [&](HalfedgeHandle h) { update_costs_at(mesh_.to_vertex_handle(h)); });
-    } else {
-      update_costs_at(centre);
-    }
+    const bool are_all_current = quadrics_.empty() || by_length_;
+    if (!are_all_current) return update_costs_at(centre);
+    for_each_around(mesh_, centre, [&](HalfedgeHandle h) {
+      const VertexHandle v = mesh_.to_vertex_handle(h);
+      if (!sums_.is_hub(v.idx())) update_costs_at(v);
+    });
   }
 
   void update_face(HalfedgeHandle spoke) {
@@ -363,8 +358,7 @@ class Decimator {
   BoundaryLimits limits_;
   SamplesOfStar samples_{job_.memory};
   FieldQuadrics<m> quadrics_{job_.memory};  // empty: the paper's cost
-  Array<VolumeSums> volume_{&job_.memory};
-  Array<LinkSums> link_{&job_.memory};
+  VertexSums sums_{job_.memory};
   Array<std::int32_t> stamp_{&job_.memory};
   std::int32_t now_ = 0;
   EdgeQueue queue_;

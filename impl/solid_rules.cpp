@@ -28,9 +28,10 @@ bool flattens_some(const SolidComplex &mesh, const Tets &tets, std::int32_t v, c
                      [&](std::int32_t t) { return is_flattened(mesh, mesh.tets[std::size_t(t)], v, place, kept); });
 }
 
-/// The triangle with the half-edge from -> to; -1 if there is none.
+/// The triangle with the half-edge from -> to; -1 if there is none. A hub's are too many to look at.
 std::int32_t triangle_at(const SolidComplex &mesh, std::int32_t from, std::int32_t to) {
-  for (std::int32_t t : mesh.triangles_of.of(from)) {
+  const bool is_hub = mesh.triangles_of.of(from).size() > longest_ring;
+  for (std::int32_t t : mesh.triangles_of.of(is_hub ? to : from)) {
     if (!mesh.has_triangle(t)) continue;
     const Triangle &f = mesh.triangles[std::size_t(t)];
     for (std::size_t k = 0; k < 3; k++)

@@ -1,4 +1,6 @@
 // 3.2  Decimation: whatever is asked for, what comes out is closed, of the same topology, and does not cross itself.
+#include <chrono>
+
 #include "decimate_fixture.hpp"
 
 namespace tetlod {
@@ -185,6 +187,29 @@ TEST_F(Decimate, IsDeterministic) {
   EXPECT_EQ(std::memcmp(first.points.data(), result.points.data(), first.points.size() * sizeof(Vec3)), 0);
   EXPECT_TRUE(std::equal(first.scalars.begin(), first.scalars.end(), result.scalars.begin()));
   EXPECT_TRUE(std::equal(first.triangles.begin(), first.triangles.end(), result.triangles.begin()));
+}
+
+/// Each collapse is beside them: the time grows with the triangles, not with their square.
+TEST_F(Decimate, HubsTakeNoTime) {
+  constexpr int n = 4000;
+  original.points = {Vec3(0, 0, 1), Vec3(0, 0, -1)};
+  for (int i = 0; i < n; i++) {
+    const double angle = 2 * 3.14159265358979 * i / n;
+    const std::int32_t at = 2 + i, next = 2 + (i + 1) % n;
+    original.points.push_back(Vec3(std::cos(angle), std::sin(angle), 0));
+    original.triangles.push_back({0, at, next});
+    original.triangles.push_back({1, next, at});
+  }
+  complete(original, [](const Vec3 &p) { return p.x; });
+  find_topology(original.points, original.triangles, host.job, topology);
+  const auto before = std::chrono::steady_clock::now();
+  decimate(0.5);
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count(), 3);
+  EXPECT_EQ(result.triangles.size(), std::size_t(n));
+  EXPECT_TRUE(facts_of(result.triangles).closed);
+  decimate(0);
+  EXPECT_LT(result.triangles.size(), 200u) << "they are none any more";
+  EXPECT_EQ(facts_of(result.triangles).euler, 2);
 }
 
 TEST_F(Decimate, NothingToDo) {
