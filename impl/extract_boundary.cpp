@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "disjoint_sets.hpp"
 #include "face_sweep.hpp"
 #include "predicates.hpp"
 #include "status.hpp"
@@ -84,6 +85,45 @@ Found sweep(const MeshView &mesh, Span<const std::uint8_t> excluded, const HostN
   return all;
 }
 
+/// Those without a volume, as a mesh of their own.
+struct TetsWithoutVolume {
+  TetsWithoutVolume(const MeshView &mesh, Span<const std::uint8_t> excluded, Job &job)
+      : tets(&job.memory), number(&job.memory) {
+    Array<std::uint8_t> is_flat(mesh.tets.size(), 0, &job.memory);
+    for_each(mesh.tets.size(), job, [&](std::size_t t) {
+      is_flat[t] = (excluded.empty() || !excluded[t]) && orientation(mesh.points, mesh.tets[t]) == 0;
+    });
+    for (std::size_t t = 0; t < is_flat.size(); t++) {
+      job.poll_at(t, 0.9);
+      if (!is_flat[t]) continue;
+      tets.push_back(mesh.tets[t]);
+      number.push_back(std::int32_t(t));
+    }
+  }
+  std::int32_t place_of(std::int32_t of_all) const {
+    return std::int32_t(std::lower_bound(number.begin(), number.end(), of_all) - number.begin());
+  }
+  Array<Tet> tets;
+  Array<std::int32_t> number;  // of each, ascending
+};
+
+/// Of the flat tets at the boundary, and those that are there when these have gone: not by a sweep for each layer.
+void add_flat_behind(const MeshView &mesh, Span<const std::uint8_t> excluded, Job &job, Array<std::int32_t> &flat) {
+  if (flat.empty()) return;
+  const TetsWithoutVolume all(mesh, excluded, job);
+  DisjointSets layers(all.tets.size(), job.memory);
+  for_each_face(without_fields(mesh.points, all.tets), {}, job, [&](const FaceUse *first, const FaceUse *last) {
+    for (const FaceUse *use = first + 1; use < last; use++)
+      layers.join(std::int32_t(first->tet()), std::int32_t(use->tet()));
+  });
+  Array<std::uint8_t> goes(all.tets.size(), 0, &job.memory);
+  for (const std::int32_t t : flat) goes[std::size_t(layers.lowest(all.place_of(t)))] = 1;
+  for (std::size_t i = 0; i < goes.size(); i++) {
+    job.poll_at(i, 0.9);
+    if (goes[std::size_t(layers.lowest(std::int32_t(i)))]) flat.push_back(all.number[i]);
+  }
+}
+
 /// How many of the tets were not excluded before.
 std::int64_t exclude(Span<const std::int32_t> tets, std::size_t count, Array<std::uint8_t> &excluded) {
   std::int64_t fresh = 0;
@@ -118,6 +158,7 @@ void extract_boundary(const MeshView &mesh, Job &job, Boundary &boundary, const 
   for (;;) {
     Found found = sweep(mesh, excluded, numbers, job);
     const std::int64_t duplicate = exclude(found.duplicate, mesh.tets.size(), excluded);
+    add_flat_behind(mesh, excluded, job, found.flat);
     const std::int64_t flat = exclude(found.flat, mesh.tets.size(), excluded);
     boundary.duplicate_tets += duplicate;
     boundary.flat_tets += flat;

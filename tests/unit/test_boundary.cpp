@@ -220,6 +220,19 @@ TEST_F(ExtractBoundary, FlatTetsArePeeled) {
   EXPECT_EQ(std::count(boundary.interior.begin(), boundary.interior.end(), centre), 0);
 }
 
+/// The upper half is pressed onto the lower one, layer on layer.
+TEST_F(ExtractBoundary, FlatLayersArePeeled) {
+  constexpr int n = 8;
+  Mesh mesh = kuhn_solid({n, n, n}, [](const Cell &) { return true; });
+  transform(mesh, [](const Vec3 &p) { return Vec3(p.x, p.y, std::min(p.z, n / 2.0)); });
+  shuffle(mesh, 3);
+  extract(mesh);
+  EXPECT_EQ(boundary.flat_tets, 6 * n * n * n / 2);
+  EXPECT_EQ(triangles().size(), std::size_t(8 * n * n));
+  EXPECT_TRUE(facts_of(triangles()).closed);
+  EXPECT_NEAR(volume_inside({mesh.points.data(), mesh.points.size()}, triangles()), n * n * n / 2, 1e-9);
+}
+
 TEST_F(ExtractBoundary, OfNothingButFlatTets) {
   Mesh mesh = kuhn_cube(2);
   transform(mesh, [](const Vec3 &p) { return Vec3(p.x, p.y, p.x + p.y); });
