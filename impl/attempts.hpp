@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "budget.hpp"
+#include "portable_math.hpp"
 #include "refine.hpp"
 #include "status.hpp"
 
@@ -45,11 +46,10 @@ bool attempt_in_memory(Job &job, const Try &attempt) {
 /// The error counts, as a part of the range, and a little what planes that weigh less cost: the boundary's distance,
 /// and vertices outside of it. By experience.
 inline double score_of(const RefineReport &refined, double range, const Report &report) {
-  constexpr double usual_error = 0.0002, usual_deviation = 0.002, power_of_deviation = 0.2, usual_outside = 0.05,
-                   power_of_outside = 0.3;
+  constexpr double usual_error = 0.0002, usual_deviation = 0.002, usual_outside = 0.05;
   const double error = range > 0 ? std::sqrt(refined.mean_square) / range : 0;
-  return (error + usual_error) * std::pow(report.max_deviation + usual_deviation, power_of_deviation) *
-         std::pow(refined.outside + usual_outside, power_of_outside);
+  const double of_outside = root(refined.outside + usual_outside, 5);
+  return (error + usual_error) * root(report.max_deviation + usual_deviation, 5) * of_outside * std::sqrt(of_outside);
 }
 
 }  // namespace tetlod

@@ -34,16 +34,17 @@ void Beginning::tell_unequal_fields() const {
 
 void Beginning::tell_moves() const {
   if (!job_.log) return;
-  const double moved_by = original_.boundary_moved_by / original_.box.diagonal();
-  if (!original_.moves.opened.empty())
+  const std::string moved_by = about(original_.boundary_moved_by / original_.box.diagonal());
+  const auto opened = static_cast<long long>(original_.moves.opened.size()),
+             upright = static_cast<long long>(original_.moves.upright.size());
+  if (opened > 0)
     job_.log(
-        2,
-        text("a field jumps across cracks: %lld points of their sides lie apart, by up to twice %.2g of the diagonal",
-             static_cast<long long>(original_.moves.opened.size()), moved_by)
-            .c_str());
-  if (!original_.moves.upright.empty())
-    job_.log(2, text("tets are turned over: %lld points are moved, those on the boundary by up to %.2g of the diagonal",
-                     static_cast<long long>(original_.moves.upright.size()), moved_by)
+        2, text("a field jumps across cracks: %lld points of their sides lie apart, by up to twice %s of the diagonal",
+                opened, moved_by.c_str())
+               .c_str());
+  if (upright > 0)
+    job_.log(2, text("tets are turned over: %lld points are moved, those on the boundary by up to %s of the diagonal",
+                     upright, moved_by.c_str())
                     .c_str());
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "pipeline.hpp"
+#include "portable_math.hpp"
 
 namespace tetlod {
 
@@ -91,7 +92,7 @@ inline double field_weight_of(const Report &report) {
 }
 
 /// A surface has fewer triangles to lose than its solid has tets, and less to lose them for.
-inline double boundary_share(double ratio) { return std::pow(ratio, 0.8); }
+inline double boundary_share(double ratio) { return power(root(ratio, 5), 4); }
 
 /// Of a boundary that so many tets are spent on: a vertex has two triangles.
 inline double triangles_for(double tets) { return 2 * tets / tets_a_boundary_point; }

@@ -162,8 +162,8 @@ class CracksOfMesh {
   bool is_between(const Pair &pair, const Vec3 &outward_of_one) const {
     return std::any_of(pair.end.begin(), pair.end.end(), [&](const auto &end) {
       constexpr double rounding = 1e-6;  // of the face
-      const double thick = glm::dot(at(end.first) - at(end.second), outward_of_one);
-      return thick > rounding * std::pow(length2(outward_of_one), 0.75);
+      const double thick = glm::dot(at(end.first) - at(end.second), outward_of_one), area = glm::length(outward_of_one);
+      return thick > rounding * area * std::sqrt(area);
     });
   }
 

@@ -221,8 +221,8 @@ CoarseSolid decimate_solid_and_check(const OriginalSolid &original, SolidOptions
   options.careful_from = coarse.careful_from;
   for (const double limit : {far_off, 2 * far_off}) {
     if (job.log)
-      job.log(1, text("the boundary is %.2g of the diagonal off: edges collapse again, to %.2g at most",
-                      coarse.deviation / diagonal, limit)
+      job.log(1, text("the boundary is %s of the diagonal off: edges collapse again, to %s at most",
+                      about(coarse.deviation / diagonal).c_str(), about(limit).c_str())
                      .c_str());
     options.max_deviation = limit * diagonal;
     CoarseSolid nearer(job.memory);

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "mesh.hpp"
+#include "portable_math.hpp"
 
 namespace tetlod {
 
@@ -90,7 +91,7 @@ inline double winding_share(const Vec3 &p, const Vec3 &x, const Vec3 &y, const V
   const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
   const double above = glm::dot(a, glm::cross(b, c));
   const double below = la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb;
-  return std::atan2(above, below) / two_pi;
+  return angle_of(above, below) / two_pi;
 }
 
 /// A point this far out of a tet, in barycentric weight, is out of it by rounding.

@@ -1,7 +1,8 @@
 #include "solid_state.hpp"
 
-#include <cmath>
 #include <numeric>
+
+#include "portable_math.hpp"
 
 namespace tetlod {
 
@@ -76,8 +77,9 @@ void SolidHistory::forget_earlier(Memory &memory) {
 }
 
 double SolidHistory::usual_cost(std::int64_t tets) const {
-  constexpr double second_order = 4.0 / 3;  // of linear interpolation: its squared error is the number of tets to -4/3
-  return knows_usual_cost() ? usual_cost_ * std::pow(double(tets_of_cost_) / double(tets), second_order) : 0;
+  if (!knows_usual_cost()) return 0;
+  const double coarser = double(tets_of_cost_) / double(tets);
+  return usual_cost_ * coarser * root(coarser, 3);  // of linear interpolation, of second order: to 4/3
 }
 
 }  // namespace tetlod

@@ -31,6 +31,12 @@ std::string number(double value) {
   return std::string(buffer, end.ptr);
 }
 
+std::string about(double value) {
+  char buffer[32];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 2);
+  return std::string(buffer, end.ptr);
+}
+
 void fail(Status status, const char *format, ...) {
   std::va_list arguments;
   va_start(arguments, format);

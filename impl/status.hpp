@@ -57,6 +57,8 @@ std::string text(const char *format, ...) TETLOD_PRINTF(1, 2);
 
 /// The shortest decimal that reads back as the same double ("0.1", "1e+300", "nan"), whatever the locale.
 std::string number(double value);
+/// With two digits ("0.017").
+std::string about(double value);
 
 [[noreturn]] void fail(Status status, const char *format, ...) TETLOD_PRINTF(2, 3);
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "portable_math.hpp"
 #include "ray.hpp"
 
 namespace tetlod {
@@ -11,7 +12,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-double angle_between(const Vec3 &a, const Vec3 &b) { return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)); }
+double angle_between(const Vec3 &a, const Vec3 &b) { return angle_of(glm::length(glm::cross(a, b)), glm::dot(a, b)); }
 
 }  // namespace
 

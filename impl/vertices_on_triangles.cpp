@@ -92,7 +92,7 @@ class VerticesOnTriangles {
   }
 
   bool lies_in_plane(const Triangle &t, const Vec3 &outward, const Vec3 &p) const {
-    const double off2 = std::pow(glm::dot(outward, p - at(t[0])), 2), area2 = length2(outward);
+    const double off = glm::dot(outward, p - at(t[0])), off2 = off * off, area2 = length2(outward);
     double nearest2 = length2(p - at(t[0]));
     for (const std::int32_t v : t) nearest2 = std::min(nearest2, length2(p - at(v)));
     return off2 <= rounding_ * rounding_ * area2 && off2 <= least * least * nearest2 * area2;

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "collapse_rules.hpp"
+#include "portable_math.hpp"
 
 namespace tetlod {
 
@@ -124,10 +125,10 @@ Losses sum_of(const Array<Losses> &losses, Memory &memory) {
 /// By experience, as tests/bench/ACCURACY.md tells. share: of the vertices, on the boundary. A boundary with fewer than
 /// the least has as large a part of what is left, if that is coarse, and then to hold it costs what the field needs.
 double weight_of(const Losses &losses, double share) {
-  constexpr double least = 3, by_losses = 4.5, most_losses = 2e4, usual_share = 0.7, least_share = 0.3,
-                   power_of_share = 6.5;
+  constexpr double least = 3, by_losses = 4.5, most_losses = 2e4, usual_share = 0.7, least_share = 0.3;
   const double ratio = losses.field < most_losses * losses.planes ? losses.field / losses.planes : most_losses;
-  const double of_inside = std::pow(usual_share / std::max(share, least_share), power_of_share);
+  const double few_on_boundary = usual_share / std::max(share, least_share);
+  const double of_inside = power(few_on_boundary, 6) * std::sqrt(few_on_boundary);
   return least + by_losses * std::sqrt(ratio) * (1 + of_inside);
 }
 
@@ -148,8 +149,8 @@ double weigh_planes(const SolidMesh<m> &mesh, Job &job) {
 }
 
 double planes_at_size(double kept) {
-  constexpr double usual = 0.1, power = 2;
-  return std::pow(std::max(1.0, kept / usual), power);
+  constexpr double usual = 0.1;
+  return power(std::max(1.0, kept / usual), 2);
 }
 
 template double weigh_planes(const SolidMesh<1> &, Job &);
