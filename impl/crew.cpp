@@ -39,6 +39,8 @@ constexpr int looks_between_turns = 16;
 void relax() {
 #if defined(__x86_64__)
   __builtin_ia32_pause();
+#elif defined(__aarch64__)
+  asm volatile("yield");
 #endif
 }
 

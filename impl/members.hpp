@@ -32,7 +32,7 @@ class Members {
 
   /// Where it is, or would be.
   std::size_t slot(std::int32_t number) const {
-    std::size_t at = std::uint32_t(number) * std::size_t(0x9e3779b97f4a7c15u) >> 32;
+    std::size_t at = std::size_t(std::uint32_t(number) * std::uint64_t(0x9e3779b97f4a7c15u) >> 32);
     for (at &= table_.size() - 1; table_[at] >= 0 && table_[at] != number;) at = (at + 1) & (table_.size() - 1);
     return at;
   }

@@ -1,9 +1,15 @@
 #include "predicates.hpp"
 
+#include <cfloat>
 #include <cmath>
 #include <limits>
 
 #include "geometry.hpp"
+
+#ifdef __FAST_MATH__
+#error "-ffast-math: what is exact here would not be, and NaN would not be found"
+#endif
+static_assert(FLT_EVAL_METHOD == 0, "the predicates need sums and products that are rounded to double (-mfpmath=sse)");
 
 namespace tetlod {
 

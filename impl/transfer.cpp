@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <type_traits>
 
 namespace tetlod {
@@ -11,11 +12,15 @@ namespace {
 constexpr std::size_t block = 1 << 13;
 constexpr std::size_t batch = 16;  // points whose values are asked for together, as they lie anywhere in memory
 
-/// 0 times infinity is no number, and a NaN of weight 0 has no part.
+/// 0 times infinity is no number, and a NaN of weight 0 has no part. What is none of infinities alone has no sign.
 double sum_of_those_with_weight(const std::array<double, 4> &values, const std::array<double, 4> &weights) {
   double sum = 0;
-  for (std::size_t k = 0; k < 4; k++) sum += weights[k] == 0 ? 0 : weights[k] * values[k];
-  return sum;
+  bool any_nan = false;
+  for (std::size_t k = 0; k < 4; k++) {
+    sum += weights[k] == 0 ? 0 : weights[k] * values[k];
+    any_nan |= weights[k] != 0 && std::isnan(values[k]);
+  }
+  return std::isnan(sum) && !any_nan ? std::numeric_limits<double>::quiet_NaN() : sum;
 }
 
 /// Without a branch that depends on the point, whose vertices may be one, three or four.

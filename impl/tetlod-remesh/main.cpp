@@ -98,6 +98,12 @@ void greet() {
   send(&hello, sizeof hello);
 }
 
+void warn_of_inexactness() {
+  if (!has_exact_predicates())
+    std::printf(
+        "TetGen was compiled with fused multiply-add: its predicates are not exact, and attempts fail for that\n");
+}
+
 void serve(const protocol::Call &call) {
   protocol::Reply reply = tetrahedralize(call);
   ::malloc_trim(0);
@@ -144,5 +150,6 @@ int main() {
   worker::grow_stack(stack);
   worker::limit_resources(start.address_space);
   worker::greet();
+  worker::warn_of_inexactness();
   worker::serve_on_enough_stack(stack);
 }

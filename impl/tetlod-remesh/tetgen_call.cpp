@@ -3,6 +3,7 @@
 #include "tetgen_call.hpp"
 
 #include <cassert>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <vector>
@@ -107,6 +108,20 @@ protocol::Reply write_result(const tetgenio &out) {
 }
 
 }  // namespace
+
+bool has_exact_predicates() {
+  // Exactly on a sphere, so near to what rounding decides that sums without that of their products find the last off
+  // it.
+  REAL p[5][3] = {{187698667, 239615633, 51786118},
+                  {314896578, 205924623, -41720783},
+                  {187698667, 239615633, -12649282},
+                  {310277069, 107798213, 51786118},
+                  {183079158, 112417722, -12649282}};
+  for (auto &point : p)
+    for (REAL &coordinate : point) coordinate = std::ldexp(coordinate, -30);
+  exactinit(0, 0, 0, 1, 1, 1);
+  return insphere(p[0], p[1], p[2], p[3], p[4]) == 0;
+}
 
 protocol::Reply tetrahedralize(const protocol::Call &call) {
   tetgenbehavior behavior;
