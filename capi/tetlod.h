@@ -357,8 +357,7 @@ TETLOD_API tetlod_status tetlod_submit_points(tetlod_context *context, const tet
 /* The same from three arrays of one component and equal length. */
 TETLOD_API tetlod_status tetlod_submit_points_xyz(tetlod_context *context, const tetlod_array *x, const tetlod_array *y,
                                                   const tetlod_array *z);
-/* Vertex numbers, 4 components, int32 or int64; index_base 0 or 1 is the number of the first point. Any winding, also
- * mixed. */
+/* Vertex numbers, 4 components, int32 or int64; index_base, 0 or 1, is that of the first point. Any winding, or mixed. */
 TETLOD_API tetlod_status tetlod_submit_tets(tetlod_context *context, const tetlod_array *corners, int32_t index_base);
 /* The field that steers the simplification: a value a point, 1 component, float32 or float64. name is copied and may be
  * NULL, but not that of a field of tetlod_submit_steering. */
@@ -434,12 +433,13 @@ TETLOD_API tetlod_status tetlod_estimate_memory(tetlod_context *context, uint64_
  * within the original's range. Where edges of the solid collapse (remesh_attempts 0) the volume changes by 1 % at most,
  * and solids in contact (or in each other, or themselves, by 0.001 of the diagonal) may cross: each is bounded alone.
  * Boundary vertices come first, then samples (each an original vertex with its value), then Steiner points; with a
- * target ratio, boundary vertices, then all others; where no edge collapses, and none is moved, as in the original. */
+ * target ratio, boundary vertices, then all others; with neither collapses, moves nor a bound, as in the original. */
 TETLOD_API tetlod_status tetlod_run(tetlod_context *context);
 
 /* Estimates the scalars' error in the last result [4], at original vertices and at samples_per_tet (0 to 100) random
- * samples in each original tet. The input of the run must still be submitted: TETLOD_ERR_STATE if it is not, or points,
- * tets or which values are ignored changed. _STRUCT_SIZE, _MEMORY_LIMIT, _CANCELLED, _TIME_LIMIT, _MESH_NONFINITE. */
+ * samples in each original tet. TETLOD_ERR_STATE if the run's input is not submitted any more, or points, tets, which
+ * values are ignored, or between which parts a field jumps changed. _STRUCT_SIZE, _MEMORY_LIMIT, _CANCELLED,
+ * _TIME_LIMIT, _MESH_NONFINITE. */
 TETLOD_API tetlod_status tetlod_measure_error(tetlod_context *context, int32_t samples_per_tet,
                                               tetlod_error_report *out);
 /* How many original (side 0, used or not; still submitted) or result (side 1) vertices have a value in each of `bins`

@@ -143,6 +143,11 @@ void refuse_changed(const Fingerprint &mesh, const Result &result) {
          "the submitted points or tets, or which values are finite, have changed since the run that made the result");
 }
 
+void refuse_other_jumps(const Original &original, const Result &result) {
+  if (original.torn != result.torn || !(original.moves.opened == result.moves.opened))
+    fail(Status::state, "a field jumps in other places of the mesh since the run that made the result");
+}
+
 void find_stencil(const Input &input, const Options &options, Prepared &prepared, Job &job, Result &result) {
   if (!result.stencil.ids.empty()) return;
   const Fingerprint mesh = fingerprint_of_mesh(input, options, job);
@@ -155,8 +160,7 @@ void find_stencil(const Input &input, const Options &options, Prepared &prepared
     prepare_with_boundary(bare, options, job, fresh.original, fresh.boundary, &result.moves);
   }
   Prepared &of = held ? prepared : fresh;
-  if (of.original.torn != result.torn || !(of.original.moves.opened == result.moves.opened))
-    fail(Status::state, "a field jumps in other places of the mesh since the run that made the result");
+  refuse_other_jumps(of.original, result);
   MeshView view = of.original.view;
   if (!result.mesh.solid.empty()) view.solid = of.solids(job);
   Array<Vec3> copy(&job.memory);

@@ -19,8 +19,11 @@ void split_fields(const Input &input, Job &job, Result &result);
 /// Throws Status::state where points or tets are not those that the result was made from.
 void refuse_changed(const Fingerprint &mesh, const Result &result);
 
+/// The same where a field jumps between others of its parts, or across other cracks.
+void refuse_other_jumps(const Original &original, const Result &result);
+
 /// Writes result.stencil, where it is not there yet, from the input of the run, which is read again, or from
-/// what is prepared of it. Throws as refuse_changed().
+/// what is prepared of it. Throws as the two above.
 void find_stencil(const Input &input, const Options &options, Prepared &prepared, Job &job, Result &result);
 
 }  // namespace tetlod

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "carry_fields.hpp"
 #include "geometry.hpp"
 #include "kd_tree.hpp"
 #include "prepare.hpp"
@@ -152,6 +153,7 @@ FieldError measure_error(const Input &input, const Options &options, const Resul
     Boundary boundary(job.memory);
     prepare_with_boundary(input, options, job, original, boundary, &result.moves);
   }
+  refuse_other_jumps(original, result);
   job.enter(Stage::values);
   Array<std::int32_t> solid(&job.memory);
   if (!result.mesh.solid.empty()) solid = solids_of_vertices(original.view, job);

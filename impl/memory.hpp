@@ -79,9 +79,15 @@ class MemoryCharge {
   std::size_t bytes_;
 };
 
-/// An array in the caller's memory. Always construct with a Memory (a copy would silently leave it, so do
-/// not copy: move, or assign into an array that has one).
+/// An array in the caller's memory, which a copy would silently leave: there is none but into an array that has one.
 template <class T>
-using Array = std::pmr::vector<T>;
+class Array : public std::pmr::vector<T> {
+ public:
+  using std::pmr::vector<T>::vector;
+  Array(Array &&) = default;
+  Array &operator=(Array &&) = default;
+  Array(const Array &) = delete;
+  Array &operator=(const Array &) = default;
+};
 
 }  // namespace tetlod

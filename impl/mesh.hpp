@@ -102,7 +102,7 @@ struct Surface {
   std::size_t fields = 1;
 };
 
-/// A simplified mesh: every tet positive, boundary vertices first, then samples, then Steiner points.
+/// A simplified mesh: every tet positive, boundary vertices first.
 struct TetMesh {
   explicit TetMesh(Memory &memory)
       : points(&memory), scalars(&memory), tets(&memory), boundary(&memory), solid(&memory) {}

@@ -48,7 +48,7 @@ struct Options {
   std::int64_t on_flat = policy_repair;        ///< peel the tets off the boundary, keep them inside
   std::int64_t on_inverted = policy_repair;    ///< take the tets the other way round
   std::int64_t on_duplicate = policy_repair;   ///< drop the later tets
-  std::int64_t on_overlap = policy_repair;     ///< keep the tets: inside they do no harm
+  std::int64_t on_overlap = policy_repair;     ///< move points, divide faces, keep contacts
   std::int64_t on_unused = policy_repair;      ///< ignore the points
   std::int64_t on_nonfinite = policy_error;  ///< repair: ignore points without a finite value together with their tets
 

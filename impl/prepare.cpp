@@ -344,7 +344,8 @@ void prepare_boundary(const Input &input, const Options &options, Job &job, Orig
     take_merged_values(job, original);
   }
   const bool repairs = options.on_overlap == policy_repair;
-  if (repairs) make_moves(made ? made->upright : find_moves(original, boundary, job), job, boundary, original);
+  if (repairs && made) make_moves(made->upright, job, boundary, original);
+  if (repairs && !made) make_moves(find_moves(original, boundary, job), job, boundary, original);
   if (are_dropped || are_merged || !original.moves.upright.empty()) measure_ranges(input, job, original);
   if (repairs) make_conforming(job, boundary, original);
   if (!made && !original.moves.opened.empty() &&

@@ -96,7 +96,7 @@ class TouchingParts {
   /// After find_torn(), which asks for jumps where there are such parts.
   bool find_ill_fitting(const NumberedTets &tets) {
     if (kept_.asked.empty()) return false;
-    NumberedTets closed = tets;
+    NumberedTets closed(tets.view(), tets.number, job_.memory);
     if (!close_gaps_of(job_, closed)) return false;
     Torn &torn = kept_.torn;
     const std::size_t before = torn.size();

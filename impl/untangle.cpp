@@ -261,18 +261,19 @@ bool are_short(const Moves &moves, const Original &original) {
 }  // namespace
 
 Moves find_moves(const Original &original, const Boundary &boundary, Job &job) {
-  const Moves none(&job.memory);
+  Moves moves(&job.memory);
   const bool agree = are_oriented(boundary.triangles, job);
   const auto are_side_by_side = [&] {
     return check_volume(original.view.points, original.view.tets, boundary.triangles, 0.9, job).empty();
   };
-  if (agree && are_side_by_side()) return none;
+  if (agree && are_side_by_side()) return moves;
   Array<Tet> upright = Uprights(original.view, job).find();
-  if (upright.empty()) return none;
+  if (upright.empty()) return moves;
   Untangling untangling(original, boundary, std::move(upright), agree ? 0 : inertia, job);
-  if (!untangling.run()) return none;
-  Moves moves = untangling.moves();
-  return are_short(moves, original) ? std::move(moves) : none;
+  if (!untangling.run()) return moves;
+  moves = untangling.moves();
+  if (!are_short(moves, original)) moves.clear();
+  return moves;
 }
 
 void make_moves(const Moves &moves, Job &job, Boundary &boundary, Original &original) {

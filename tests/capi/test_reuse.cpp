@@ -307,6 +307,12 @@ TEST_F(Reuse, ValuesThatTear) {
   const tetlod_array from = array_of(TETLOD_FLOAT64, cube.values.size(), 3, cube.xyz.data());
   tetlod_array to = array_of(TETLOD_FLOAT64, out.size() / 3, 3, out.data());
   EXPECT_EQ(tetlod_transfer(context.get(), &from, &to), TETLOD_ERR_STATE) << "other points are one now";
+  tetlod_error_report error{};
+  error.struct_size = sizeof error;
+  EXPECT_EQ(tetlod_measure_error(context.get(), 1, &error), TETLOD_ERR_STATE);
+  for (std::size_t v = points; v < cube.values.size(); v++) cube.values[v] -= 1;
+  EXPECT_EQ(tetlod_measure_error(context.get(), 1, &error), TETLOD_OK) << message_of(context.get());
+  EXPECT_LT(error.outside, 0.1);
 }
 
 /// Values, points and tets that have to be copied.

@@ -21,6 +21,20 @@ struct Host {
   Job job{memory, parallel};
 };
 
+/// Of arrays, or of what is made of them.
+template <class T>
+T copy_of(const T &original, Host &host) {
+  const auto empty = [&] {
+    if constexpr (std::is_constructible_v<T, Memory &>)
+      return T(host.memory);
+    else
+      return T(&host.memory);
+  };
+  T copy = empty();
+  copy = original;
+  return copy;
+}
+
 /// A tet mesh with arrays of its own.
 struct Mesh {
   std::vector<Vec3> points;

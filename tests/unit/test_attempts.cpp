@@ -49,7 +49,7 @@ TEST(Attempts, TheBestHasTheLeastOfAll) {
   Report report;
   report.max_deviation = 0.01;
   const double score = score_of(usual, 1, report);
-  RefineReport other = usual;
+  RefineReport other = copy_of(usual, host);
   other.mean_square *= 0.9;
   EXPECT_LT(score_of(other, 1, report), score);
   other = usual;
@@ -64,7 +64,7 @@ TEST(Attempts, ErrorsThatAreNextToNoneCountLessThanTheBoundary) {
   RefineReport usual(host.memory);
   usual.mean_square = 1e-10;
   usual.outside = 0.2;
-  RefineReport other = usual;
+  RefineReport other = copy_of(usual, host);
   other.mean_square /= 4;
   other.outside *= 1.3;
   EXPECT_GT(score_of(other, 1, Report()), score_of(usual, 1, Report()));

@@ -90,7 +90,7 @@ TEST_F(Contacts, AreThoseOfAllPairs) {
     divide(times, guard);
     for (int i = 0; i < changes; i++) {
       const bool moves = random() % 2 != 0;
-      const Surface before = surface;
+      const Surface before = copy_of(surface, host);
       const auto any = [&](std::size_t count) { return std::int32_t(random() % count); };
       const Change change =
           moves ? with_moved(any(surface.points.size())) : with_divided(any(surface.triangles.size()));

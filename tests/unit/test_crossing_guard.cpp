@@ -117,7 +117,7 @@ TEST_F(Crossings, AreThoseOfAllPairsAndWhatIsPassedOver) {
       const Triangle t = triangle(std::int32_t(random() % surface.triangles.size()));
       const Vec3 middle = 0.5 * (surface.points[std::size_t(t[0])] + surface.points[std::size_t(t[1])]);
       if (!look_at(t[0], t[1], middle + somewhere(0.2), star)) continue;
-      const Surface before = left(), kept = surface;
+      const Surface before = left(), kept = copy_of(surface, host);
       const std::vector<std::uint8_t> kept_gone = gone;
       const bool is_passed = guard.is_passed(star);
       collapse(star);

@@ -106,10 +106,10 @@ TEST_F(MoveOutward, FewerVerticesAreOutside) {
   for (double ratio : {0.2, 0.05, 0.02}) {
     coarsen(ratio);
     set_values(slope);
-    const TetMesh before = mesh;
+    const TetMesh before = copy_of(mesh, host);
     const std::size_t outside = count_outside();
     const double farthest = farthest_sample(), volume = volume6();
-    const Array<std::int32_t> was = origin;
+    const Array<std::int32_t> was = copy_of(origin, host);
     move();
     EXPECT_LT(double(count_outside()), (ratio > 0.03 ? 0.95 : 1) * double(outside)) << ratio;
     EXPECT_GT(volume6(), volume);
@@ -156,8 +156,8 @@ TEST_F(MoveOutwardAmongTets, GuardedTheBoundaryDoesNotCrossItself) {
     start();
     coarsen(0.05);
     if (crosses_itself(mesh)) continue;
-    const TetMesh before = mesh;
-    const Array<std::int32_t> was = origin;
+    const TetMesh before = copy_of(mesh, host);
+    const Array<std::int32_t> was = copy_of(origin, host);
     move();
     crossed += crosses_itself(mesh);
     mesh = before;
@@ -195,12 +195,12 @@ TEST_F(MoveOutward, WhereAFieldJumpsItStays) {
   start_with(ball(12));
   coarsen(0.2);
   set_values(slope);
-  const TetMesh coarse = mesh;
+  const TetMesh coarse = copy_of(mesh, host);
   move();
-  const Array<Vec3> moved = mesh.points;
+  const Array<Vec3> moved = copy_of(mesh.points, host);
   mesh.points = coarse.points;
   set_values(jump);
-  const TetMesh before = mesh;
+  const TetMesh before = copy_of(mesh, host);
   move();
   std::size_t stay = 0, go = 0;
   for (std::size_t v = 0; v < moved.size(); v++) {
@@ -220,7 +220,7 @@ TEST_F(MoveOutward, WhatIsPlaneStays) {
   for (double size : {1.0, 1.001}) {
     coarsen(0.1);
     for (Vec3 &p : mesh.points) p = Vec3(0.5) + size * (p - Vec3(0.5));
-    const TetMesh before = mesh;
+    const TetMesh before = copy_of(mesh, host);
     move();
     EXPECT_EQ(mesh.points, before.points) << size;
   }
@@ -235,8 +235,8 @@ TEST_F(MoveOutward, KeptVerticesStay) {
   };
   for (bool kept : {false, true}) {
     coarsen(0.5);
-    const TetMesh before = mesh;
-    const Array<std::int32_t> was = origin;
+    const TetMesh before = copy_of(mesh, host);
+    const Array<std::int32_t> was = copy_of(origin, host);
     const auto all = std::size_t(std::count_if(was.begin(), was.end(), [](std::int32_t v) { return v >= 0; }));
     stays.assign(original.points.size(), kept);
     move();

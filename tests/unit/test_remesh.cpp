@@ -156,7 +156,8 @@ TEST_F(Remesh, FarFromTheOrigin) {
 
 TEST_F(Remesh, AtTheEndOfWhatDoublesResolve) {
   const Surface near = box(memory, 3);
-  Surface surface = near;
+  Surface surface(memory);
+  surface = near;
   transform(surface, [&](const Vec3 &p) { return p + Vec3(1e15); });  // a ruler of eighths
   ASSERT_EQ(status(surface), Status::ok) << message;
   expect_good(surface, no_samples());

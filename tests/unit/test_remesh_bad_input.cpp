@@ -24,7 +24,8 @@ TEST_F(Remesh, IdenticalCollinearCoplanarFlat) {
   for (const auto &squash : std::vector<std::function<Vec3(Vec3)>>{
            [](Vec3) { return Vec3(1, 2, 3); }, [](Vec3 p) { return Vec3(p.x + 2 * p.y + 4 * p.z); },
            [](Vec3 p) { return Vec3(p.x, p.y, 0); }, [](Vec3 p) { return Vec3(p.x, p.y, p.x + p.y); }}) {
-    Surface surface = good;
+    Surface surface(memory);
+    surface = good;
     transform(surface, squash);
     EXPECT_EQ(status(surface), Status::mesh_degenerate) << message;
   }
@@ -45,7 +46,8 @@ TEST_F(Remesh, NotFinite) {
 
 TEST_F(Remesh, BrokenTriangles) {
   const Surface good = box(memory, 2);
-  Surface surface = good;
+  Surface surface(memory);
+  surface = good;
   surface.triangles[7][1] = std::int32_t(good.points.size());
   EXPECT_EQ(status(surface), Status::mesh_index) << message;
   surface.triangles[7][1] = -1;

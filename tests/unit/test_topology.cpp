@@ -344,13 +344,13 @@ TEST_F(Topology, ASolidInASolidIsFoundAmongMany) {
       return error.status();
     }
   };
-  EXPECT_EQ(status_of(surface), Status::ok);
+  EXPECT_EQ(status_of(copy_of(surface, host)), Status::ok);
   const Vec3 low(24, 24 + 1.2, 24 + 2.4);  // of one of them
-  Surface in_cavity = surface;
+  Surface in_cavity = copy_of(surface, host);
   append(in_cavity, box(host.memory, 1, low + Vec3(0.3), low + Vec3(0.7)));
-  EXPECT_EQ(status_of(in_cavity), Status::ok);
+  EXPECT_EQ(status_of(std::move(in_cavity)), Status::ok);
   append(surface, box(host.memory, 1, low + Vec3(0.05), low + Vec3(0.15)));
-  EXPECT_EQ(status_of(surface), Status::mesh_intersecting);
+  EXPECT_EQ(status_of(std::move(surface)), Status::mesh_intersecting);
 }
 
 // What is no boundary of a solid

@@ -203,7 +203,7 @@ TEST_F(TouchingParts, AsByBruteForce) {
     used.assign(mesh.points.size(), 1);
     for (int i = 0; i < any(4); i++) used[std::size_t(any(40))] = 0;
     expect_as_by_brute_force();
-    const Array<std::int32_t> apart = representative;
+    const Array<std::int32_t> apart = copy_of(representative, host);
     merge_all();
     differ += representative != apart;
   }

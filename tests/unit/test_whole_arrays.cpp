@@ -14,6 +14,8 @@ namespace {
 
 using namespace test;
 
+static_assert(!std::is_copy_constructible_v<Array<double>>, "a copy would leave the caller's memory");
+
 class WholeArrays : public testing::TestWithParam<int> {
  protected:
   Host host{GetParam()};
