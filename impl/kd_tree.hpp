@@ -199,6 +199,8 @@ class KdTree {
   };
 
   Box fill_leaf(const Array<Box> &of_items, Span<Entry> entries, const Place &at, std::int32_t parent) {
+    // By their numbers: in which order halve() leaves them is a matter of the standard library.
+    std::sort(entries.begin(), entries.end(), [](const Entry &a, const Entry &b) { return a.item < b.item; });
     leaves_[std::size_t(at.leaf)] = {at.pair, at.pair + std::int32_t(entries.size() + 1) / 2, parent};
     for (std::size_t i = 0; i < entries.size(); i++) {
       const std::int32_t item = entries[i].item;

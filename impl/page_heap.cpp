@@ -118,7 +118,9 @@ void PageHeap::add_piece(Piece piece) noexcept {
     piece.bytes += last->bytes;
     ++last;
   }
-  insert_piece(std::size_t(pieces_.erase(first, last) - pieces_.begin()), piece);
+  const auto place = std::size_t(first - pieces_.begin());
+  pieces_.erase(first, last);
+  insert_piece(place, piece);
 }
 
 /// Returns how many are inserted: an empty one is not, and where there is no memory to tell of it, it goes.

@@ -6,7 +6,7 @@
 
 #include "geometry.hpp"
 
-#ifdef __FAST_MATH__
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
 #error "-ffast-math: what is exact here would not be, and NaN would not be found"
 #endif
 static_assert(FLT_EVAL_METHOD == 0, "the predicates need sums and products that are rounded to double (-mfpmath=sse)");
