@@ -75,7 +75,7 @@ constexpr double tets_a_sample = 6.5, tets_a_boundary_point = 3;
 constexpr double tets_a_point = 4.5, tets_a_part = 6.5;
 /// Share of the tets that is left to the vertices that refine() inserts; and that the boundary may have in any case.
 constexpr double spare = 0.05, part_for_coarse_boundary = 0.05;
-constexpr int most_rounds = 6, most_restorations = 4;
+constexpr int most_rounds = 6, most_restorations = 8;
 /// What is beyond the size by more misses it.
 constexpr double most_excess = 1.03;
 inline bool meets_size(const Budget &budget, const TetMesh &mesh) {
@@ -139,13 +139,13 @@ inline bool is_whole(const Budget &budget, const Options &options, const Report 
 
 /// Where edges collapse, a bound without a size begins where the largest error is about twice the bound, which takes
 /// fewer tets in the end than other beginnings: when collapses cost more than the square of so many times the bound, of
-/// the diagonal; by experience. With looser bounds than that, and with a smaller part of the tets, unless these are
-/// many, the shape would suffer; above the larger part, insertions where they are needed take fewer.
+/// the diagonal; by experience. With dearer ones than the costliest, and with a smaller part of the tets, unless these
+/// are many, the shape would suffer; above the larger part, insertions where they are needed take fewer.
 inline Budget budget_for_bound(double max_error, double diagonal, const Report &report) {
-  constexpr double cost_of_bound = 50, loosest = 0.04, least = 0.01, many = 2000, enough = 0.15;
+  constexpr double cost_of_bound = 40, costliest = 2, least = 0.01, many = 2000, enough = 0.15;
   Budget budget = budget_of(first_ratio, report);
   const double whole = double(budget.tets) / first_ratio,
-               length = cost_of_bound * std::min(max_error, loosest) * diagonal;
+               length = std::min(cost_of_bound * max_error, costliest) * diagonal;
   budget.least = std::int64_t(std::min(least * whole, many));
   budget.enough = std::int64_t(enough * whole);
   budget.dearest = length * length;

@@ -8,7 +8,7 @@ namespace tetlod {
 
 /// Divides tets at hanging vertices, and then, if there are such, at others on their edges and faces; then closes
 /// crossed quads, so that the faces in between are none of the boundary. Halves, and what takes the place of others,
-/// have their numbers. Where no solid comes of it, or one that touches itself, as it did not, all stays as it is.
+/// have their numbers. Where no solid comes of it, or one that touches itself, as it did not, or where all tets are as flat as gaps, all stays as it is.
 /// boundary: as extract_boundary() leaves it, with nothing excluded.
 void make_conforming(Job &job, Boundary &boundary, Original &original);
 

@@ -34,7 +34,7 @@ struct SolidOptions {
   double max_deviation = 0;                 ///< as in DecimateOptions
   Samples measured_at = Samples::vertices;  ///< what of the boundaries a deviation is told of
   bool hasty = false;             ///< vertices inside are removed nearer to the size, and more of them in a round
-  bool holds_bound = false;       ///< what is flat gets no flatter, because a bound is to be held there
+  bool holds_bound = false;       ///< what is flattest gets no flatter, as a bound is to be held there
   bool may_relax = false;         ///< where little is admissible else, the boundary may get more folded than it is,
   std::int64_t relaxed_from = 0;  ///< and with so many tets or fewer in any case
   double planes = 1;              ///< what the boundary's planes weigh, of weigh_planes()

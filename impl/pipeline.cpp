@@ -51,6 +51,8 @@ class Pipeline : private Remeshing {
   /// Where the bound does not hold because the boundary is too coarse, one with more triangles follows.
   void run_to_target(Worker &worker) {
     for (double ratio = ratio_of(options_); !meet_budget(worker);) {
+      if (budget_.enough > 0)  // as the bound decided
+        ratio = std::min(ratio, double(mesh_.tets.size()) / double(report_.sound_tets()));
       if (is_whole(budget_, options_, report_)) fail_bound();
       do {  // with fewer tets than edges collapse to it would hardly be another one
         ratio *= 2;

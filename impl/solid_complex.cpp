@@ -2,7 +2,7 @@
 
 #include <numeric>
 
-#include "tet_frame.hpp"
+#include "usual_shape.hpp"
 
 namespace tetlod {
 
@@ -18,7 +18,7 @@ SolidComplex::SolidComplex(SolidInOrder &&solid, Job &job)
                    std::move(solid.tets), std::move(solid.triangles), {}, job) {
   for (const Triangle &t : triangles)
     for (std::int32_t v : t) ranks[std::size_t(v)] = Rank::boundary;
-  const double flat = flat_beside_usual * flat_beside_usual * usual_shape2(job.memory);
+  const double flat = flat_beside_usual * flat_beside_usual * usual_shape2(points, tets, job.memory);
   measures = {std::min(least_shape * least_shape, flat), volume(job), points.size(), tets.size(), 0};
 }
 
@@ -31,19 +31,6 @@ SolidComplex::SolidComplex(Array<Vec3> &&points_of, Array<Rank> &&ranks_of, Arra
       tets_of(Span<const Tet>(tets), points.size(), job),
       triangles_of(Span<const Triangle>(triangles), points.size(), job),
       measures(of_original) {}
-
-/// The median of some thousand tets'. Of a squeezed mesh all are flat.
-double SolidComplex::usual_shape2(Memory &memory) const {
-  constexpr std::size_t enough = 4096;
-  Array<double> shapes(&memory);
-  for (std::size_t i = 0; i < tets.size(); i += tets.size() / enough + 1) {
-    const Tet &t = tets[i];
-    shapes.push_back(shape2(point(t[0]), point(t[1]), point(t[2]), point(t[3])));
-  }
-  const auto middle = shapes.begin() + std::ptrdiff_t(shapes.size() / 2);
-  std::nth_element(shapes.begin(), middle, shapes.end());
-  return *middle;
-}
 
 Vec3 SolidComplex::normal(std::int32_t triangle) const { return area_vector(points, triangles[std::size_t(triangle)]); }
 

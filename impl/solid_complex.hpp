@@ -143,7 +143,6 @@ class SolidComplex {
 
  private:
   static constexpr std::size_t much = 8;  ///< times what has grown is all
-  double usual_shape2(Memory &memory) const;
   double volume(Job &job) const;
   std::int32_t *list_left(Span<const std::int32_t> star, std::int32_t *place) const;
   void merge_tets(const SolidEdge &edge, CollapseRoom &room);

@@ -22,12 +22,12 @@ class SolidPlaces {
  public:
   using Place = Vector<3 + m>;
 
-  /// holds_bound: what is flat gets no flatter. boundary_vertices: of the original.
+  /// holds_bound: what is flattest gets no flatter. boundary_vertices: of the original.
   SolidPlaces(const SolidMesh<m> &mesh, const SolidBlocks &blocks, bool holds_bound, std::size_t boundary_vertices)
       : mesh_(mesh),
         blocks_(blocks),
         keeps_planes_(!holds_bound),
-        kept_of_flat_(holds_bound ? 1 : kept_of_flat),
+        kept_of_flat_(holds_bound ? kept_for_bound : kept_of_flat),
         volume_of_collapse_(volume_to_lose * mesh.measures.volume / double(boundary_vertices)),
         rules_(holds_bound ? of_bound : rules[0]) {}
 
@@ -63,7 +63,9 @@ class SolidPlaces {
   static constexpr double volume_to_lose = 0.01;
   /// What tets that are flat have to keep of their shape. In a graded mesh most are; nothing could go there without
   /// making some worse.
-  static constexpr double kept_of_flat = 0.7;
+  static constexpr KeptOfFlat kept_of_flat{0.7, 0.7, 0};
+  /// Where a bound is to be held weights in the flattest have to be more than rounding leaves of them.
+  static constexpr KeptOfFlat kept_for_bound{0.7, 1, 1e-8};
   /// Of the boundary, most. On walls that are stretched all triangles are slivers, as good as each other but for a
   /// little; the rim of a flat body is sharper than any fold may get else, and its narrow faces turn when it gets still
   /// flatter; between the sides of a slit the best place of an edge is often beyond one.
@@ -168,7 +170,8 @@ class SolidPlaces {
   const SolidMesh<m> &mesh_;
   const SolidBlocks &blocks_;
   bool keeps_planes_;  // with a bound slits would lose their ends
-  double kept_of_flat_, volume_of_collapse_;
+  const KeptOfFlat &kept_of_flat_;
+  double volume_of_collapse_;
   Rules rules_;
 };
 

@@ -6,9 +6,8 @@ namespace tetlod {
 
 namespace {
 
-/// Whether tet t, with its corner v at another place, would turn over, or be flat and keep less than `kept` of its
-/// shape.
-bool is_flattened(const SolidComplex &mesh, const Tet &t, std::int32_t v, const Vec3 &place, double kept) {
+/// Whether tet t, with its corner v at another place, would turn over, or be flat and keep less of its shape.
+bool is_flattened(const SolidComplex &mesh, const Tet &t, std::int32_t v, const Vec3 &place, const KeptOfFlat &kept) {
   const auto &face = tet_face[(v == t[1]) + 2 * (v == t[2]) + 3 * (v == t[3])];
   const auto corner = [&](int i) { return mesh.point(t[std::size_t(face[i])]); };
   const Vec3 a = corner(0), b = corner(1), c = corner(2);
@@ -19,11 +18,14 @@ bool is_flattened(const SolidComplex &mesh, const Tet &t, std::int32_t v, const 
   const double limit2 = mesh.measures.least_shape2;
   if (volume * volume > limit2 * most * most * most) return false;
   const double shape = shape2(place, a, b, c);
-  return shape < limit2 && shape < kept * kept * shape2(mesh.point(v), a, b, c);
+  if (shape >= limit2) return false;
+  const double part = shape < kept.flattest * kept.flattest ? kept.part_of_flattest : kept.part;
+  return shape < part * part * shape2(mesh.point(v), a, b, c);
 }
 
 template <class Tets>
-bool flattens_some(const SolidComplex &mesh, const Tets &tets, std::int32_t v, const Vec3 &place, double kept) {
+bool flattens_some(const SolidComplex &mesh, const Tets &tets, std::int32_t v, const Vec3 &place,
+                   const KeptOfFlat &kept) {
   return std::any_of(tets.begin(), tets.end(),
                      [&](std::int32_t t) { return is_flattened(mesh, mesh.tets[std::size_t(t)], v, place, kept); });
 }
@@ -103,7 +105,7 @@ bool look_around(const SolidComplex &mesh, std::int32_t stays, std::int32_t gone
   return !edge.edge_tets.empty() && !(edge.stays_tets.empty() && edge.gone_tets.empty());
 }
 
-bool look_around_removal(const SolidComplex &mesh, std::int32_t stays, std::int32_t gone, double kept,
+bool look_around_removal(const SolidComplex &mesh, std::int32_t stays, std::int32_t gone, const KeptOfFlat &kept,
                          SolidEdge &edge) {
   edge.begin(stays, gone);
   const Vec3 place = mesh.point(stays);
@@ -117,7 +119,7 @@ bool look_around_removal(const SolidComplex &mesh, std::int32_t stays, std::int3
   return true;
 }
 
-bool flattens(const SolidComplex &mesh, const SolidEdge &edge, const Vec3 &place, double kept) {
+bool flattens(const SolidComplex &mesh, const SolidEdge &edge, const Vec3 &place, const KeptOfFlat &kept) {
   return (place != mesh.point(edge.stays) && flattens_some(mesh, edge.stays_tets, edge.stays, place, kept)) ||
          flattens_some(mesh, edge.gone_tets, edge.gone, place, kept);
 }

@@ -6,17 +6,23 @@
 
 namespace tetlod {
 
+/// What tets that are flat have to keep of their shape, and those that are flatter than some.
+struct KeptOfFlat {
+  double part, part_of_flattest, flattest;
+};
+
 /// The tets around an edge. False where there are too many to bother, or nothing would be left of them.
 bool look_around(const SolidComplex &mesh, std::int32_t stays, std::int32_t gone, SolidEdge &edge);
 
 /// The same of a vertex inside that moves into its neighbour, whose other tets stay as they are. False also where a tet
 /// would be flattened, as below.
-bool look_around_removal(const SolidComplex &mesh, std::int32_t stays, std::int32_t gone, double kept, SolidEdge &edge);
+bool look_around_removal(const SolidComplex &mesh, std::int32_t stays, std::int32_t gone, const KeptOfFlat &kept,
+                         SolidEdge &edge);
 
-/// A tet would turn over, or be flat and keep less than this part of its shape. Where none does, the links of the ends
+/// A tet would turn over, or be flat and keep less of its shape. Where none does, the links of the ends
 /// share no more than that of the edge [Dey et al. 1999] if they do so in the surface: positive tets in a simple
 /// surface cover each place once.
-bool flattens(const SolidComplex &mesh, const SolidEdge &edge, const Vec3 &place, double kept);
+bool flattens(const SolidComplex &mesh, const SolidEdge &edge, const Vec3 &place, const KeptOfFlat &kept);
 
 /// An edge between vertices of the boundary, as the rules of the surface see its collapse. False where it is none of
 /// the boundary's edges, and where the surface's links share more than that of the edge.

@@ -51,6 +51,17 @@ TEST_F(ABound, TakesFewTetsOfALargeMeshToo) {
   EXPECT_LT(200 * report().tets_out, report().tets_in);
 }
 
+/// A graded layer: where its triangles are large, its tets are flatter than other meshes' are.
+TEST_F(ABound, TakesFewTetsOfAThinLayer) {
+  Mesh original = kuhn_solid({30, 30, 1}, [](const Cell &) { return true; });
+  transform(original, [](const Vec3 &p) { return Vec3(std::pow(p.x / 30, 5), std::pow(p.y / 30, 5), p.z / 20000); });
+  set_scalars(original, [](const Vec3 &p) { return std::sin(3 * p.x) + p.y * p.y + 0.3 * std::cos(1e5 * p.z); });
+  options.max_error = 0.01;
+  simplify(original);
+  EXPECT_LE(report().max_error, options.max_error);
+  EXPECT_LT(double(report().tets_out), 0.095 * double(report().tets_in));
+}
+
 /// Of walls that are plane but for rounding: vertices of the result come to be almost, but not quite, at others.
 TEST_F(ABound, HoldsOnRoundedWalls) {
   options.max_error = 0.001;

@@ -326,13 +326,14 @@ TEST_F(DecimateSolid, WhatItAdmitsSatisfiesTheLinkCondition) {
       solid.find_neighbours(a, neighbours);
       for (std::int32_t b : neighbours) {
         if (solid.rank(b) > solid.rank(a)) continue;
+        const KeptOfFlat kept{0.7, 0.7, 0};
         SolidEdge edge, of_removal;
         Star star(host.memory);
         const Vec3 &place = solid.point(a);
         const bool on_boundary = solid.on_boundary(b);
-        const bool keeps_tets = look_around(solid, a, b, edge) && !flattens(solid, edge, place, 0.7);
+        const bool keeps_tets = look_around(solid, a, b, edge) && !flattens(solid, edge, place, kept);
         if (!on_boundary) {
-          EXPECT_EQ(look_around_removal(solid, a, b, 0.7, of_removal), keeps_tets) << "edge " << a << " " << b;
+          EXPECT_EQ(look_around_removal(solid, a, b, kept, of_removal), keeps_tets) << "edge " << a << " " << b;
           removed += keeps_tets;
         }
         const bool admits =
