@@ -357,7 +357,7 @@ TETLOD_API tetlod_status tetlod_submit_points(tetlod_context *context, const tet
 /* The same from three arrays of one component and equal length. */
 TETLOD_API tetlod_status tetlod_submit_points_xyz(tetlod_context *context, const tetlod_array *x, const tetlod_array *y,
                                                   const tetlod_array *z);
-/* Vertex numbers, 4 components, int32 or int64; index_base, 0 or 1, is that of the first point. Any winding, or mixed. */
+/* Vertex numbers, 4 components, int32 or int64; index_base, 0 or 1, is that of the first point. Any winding, mixed. */
 TETLOD_API tetlod_status tetlod_submit_tets(tetlod_context *context, const tetlod_array *corners, int32_t index_base);
 /* The field that steers the simplification: a value a point, 1 component, float32 or float64. name is copied and may be
  * NULL, but not that of a field of tetlod_submit_steering. */
