@@ -115,7 +115,7 @@ typedef struct tetlod_config {
   uint32_t struct_size; /* sizeof(tetlod_config) */
   uint32_t api_version; /* TETLOD_API_VERSION */
   /* Allocator: both or neither. `allocate` returns memory of that alignment (a power of two) or NULL, `release` gets
-   * what allocate got. They may be called from several threads at once when TETLOD_OPT_THREADS is above 1. The
+   * what allocate got. Called by several threads at once if TETLOD_OPT_THREADS is above 1, rounding to nearest. The
    * context itself, what tells of its threads, messages and OpenMesh's surface come from operator new; the last counts.
    * Without an allocator large arrays are the system's huge pages, given back, but for what is kept, after a call. */
   void *(*allocate)(void *user, size_t bytes, size_t alignment);
