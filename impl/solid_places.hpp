@@ -63,9 +63,9 @@ class SolidPlaces {
   static constexpr double volume_to_lose = 0.01;
   /// What tets that are flat have to keep of their shape. In a graded mesh most are; nothing could go there without
   /// making some worse.
-  static constexpr KeptOfFlat kept_of_flat{0.7, 0.7, 0};
+  static constexpr KeptOfFlat kept_of_flat{0.7, 0};
   /// Where a bound is to be held weights in the flattest have to be more than rounding leaves of them.
-  static constexpr KeptOfFlat kept_for_bound{0.7, 1, 1e-8};
+  static constexpr KeptOfFlat kept_for_bound{0.7, 1e-8};
   /// Of the boundary, most. On walls that are stretched all triangles are slivers, as good as each other but for a
   /// little; the rim of a flat body is sharper than any fold may get else, and its narrow faces turn when it gets still
   /// flatter; between the sides of a slit the best place of an edge is often beyond one.

@@ -19,7 +19,7 @@ bool is_flattened(const SolidComplex &mesh, const Tet &t, std::int32_t v, const 
   if (volume * volume > limit2 * most * most * most) return false;
   const double shape = shape2(place, a, b, c);
   if (shape >= limit2) return false;
-  const double part = shape < kept.flattest * kept.flattest ? kept.part_of_flattest : kept.part;
+  const double part = shape < kept.flattest * kept.flattest ? 1 : kept.part;
   return shape < part * part * shape2(mesh.point(v), a, b, c);
 }
 

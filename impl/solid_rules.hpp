@@ -6,9 +6,9 @@
 
 namespace tetlod {
 
-/// What tets that are flat have to keep of their shape, and those that are flatter than some.
+/// The part of their shape that flat tets have to keep; the flattest, below this shape, keep all.
 struct KeptOfFlat {
-  double part, part_of_flattest, flattest;
+  double part, flattest;
 };
 
 /// The tets around an edge. False where there are too many to bother, or nothing would be left of them.

@@ -110,8 +110,7 @@ protocol::Reply write_result(const tetgenio &out) {
 }  // namespace
 
 bool has_exact_predicates() {
-  // Exactly on a sphere, so near to what rounding decides that sums without that of their products find the last off
-  // it.
+  // Exactly on a sphere; where products are not rounded before they are summed the last is found off it.
   REAL p[5][3] = {{187698667, 239615633, 51786118},
                   {314896578, 205924623, -41720783},
                   {187698667, 239615633, -12649282},

@@ -326,7 +326,7 @@ TEST_F(DecimateSolid, WhatItAdmitsSatisfiesTheLinkCondition) {
       solid.find_neighbours(a, neighbours);
       for (std::int32_t b : neighbours) {
         if (solid.rank(b) > solid.rank(a)) continue;
-        const KeptOfFlat kept{0.7, 0.7, 0};
+        const KeptOfFlat kept{0.7, 0};
         SolidEdge edge, of_removal;
         Star star(host.memory);
         const Vec3 &place = solid.point(a);

@@ -35,7 +35,7 @@ class WidenCavity : public DecimateSolid {
         const Vec3 d = solid.point(b) - solid.point(a);
         const Vec3 step = glm::length(d) * Vec3(any(random), any(random), any(random));
         const Vec3 place = solid.rank(a) == Rank::inner ? solid.point(a) + 0.5 * d + step : solid.point(a);
-        if (flattens(solid, edge, place, {1, 1, 0})) visit(edge, place);
+        if (flattens(solid, edge, place, {1, 0})) visit(edge, place);
       }
     }
   }
