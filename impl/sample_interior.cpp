@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "part_in_order.hpp"
+
 namespace tetlod {
 
 namespace {
@@ -10,20 +12,28 @@ namespace {
 /// A run of the vertices, [begin, end).
 struct Cell {
   std::size_t begin, end;
+  int depth;
 };
+
+/// Cells of that depth are halved: cuts between extremes may separate one vertex at a time, as where oscillations grow.
+constexpr int deepest = 64;
 
 /// Of several fields, each counts as mesh.scales.weighted says.
 template <std::size_t m>
 class SamplingTree {
  public:
   SamplingTree(const MeshView &mesh, Span<std::int32_t> vertices, double variation, Job &job)
-      : mesh_(mesh), values_(mesh.values<m>()), vertices_(vertices), variation_(variation), job_(job) {}
+      : mesh_(mesh),
+        values_(mesh.values<m>()),
+        vertices_(vertices),
+        variation_(variation),
+        job_(job),
+        others_(&job.memory) {}
 
-  /// Depth first, so that the leaves come in the order of the vertices' runs; a stack of its own, because values that
-  /// separate one vertex at a time make a tree as deep as there are vertices.
-  void sample(Array<std::int32_t> &samples) const {
+  /// Depth first, so that the leaves come in the order of the vertices' runs.
+  void sample(Array<std::int32_t> &samples) {
     Array<Cell> stack(&job_.memory);
-    if (!vertices_.empty()) stack.push_back({0, vertices_.size()});
+    if (!vertices_.empty()) stack.push_back({0, vertices_.size(), 0});
     while (!stack.empty()) {
       const Cell cell = stack.back();
       stack.pop_back();
@@ -38,8 +48,8 @@ class SamplingTree {
         samples.push_back(nearest_to_mean(cell));
         continue;
       }
-      stack.push_back({middle, cell.end});
-      stack.push_back({cell.begin, middle});
+      stack.push_back({middle, cell.end, cell.depth + 1});
+      stack.push_back({cell.begin, middle, cell.depth + 1});
     }
   }
 
@@ -74,31 +84,37 @@ class SamplingTree {
 
   /// Cuts at the middle of g = x_max - x_min on the axis where g is longest. Returns where the second half begins;
   /// cell.begin when the points cannot be separated.
-  std::size_t split(const Cell &cell, const Extremes &extremes) const {
+  std::size_t split(const Cell &cell, const Extremes &extremes) {
     const Vec3 g = extremes.at_most - extremes.at_least;
     int axis = 0;
     for (int k = 1; k < 3; k++)
       if (std::abs(g[k]) > std::abs(g[axis])) axis = k;
     const double cut = extremes.at_least[axis] + 0.5 * g[axis];
-    const auto first = vertices_.begin() + cell.begin, last = vertices_.begin() + cell.end;
-    const auto middle = std::partition(first, last, [&](std::int32_t v) { return point(v)[axis] < cut; });
-    if (middle != first && middle != last) return std::size_t(middle - vertices_.begin());
+    if (cell.depth < deepest) {
+      const std::size_t middle = part(cell, [&](std::int32_t v) { return point(v)[axis] < cut; });
+      if (middle != cell.begin && middle != cell.end) return middle;
+    }
     return split_at_median(cell);
   }
 
-  /// For cells that the cut does not separate (x_min and x_max rounded to one side, or at one place).
-  std::size_t split_at_median(const Cell &cell) const {
+  /// For cells that the cut does not separate (x_min and x_max rounded to one side, or at one place), or not evenly.
+  std::size_t split_at_median(const Cell &cell) {
     Box box;
     for (std::size_t i = cell.begin; i < cell.end; i++) box.add(point(vertices_[i]));
     const int axis = box.longest_axis();
     if (!(box.high[axis] > box.low[axis])) return cell.begin;
-    const auto first = vertices_.begin() + cell.begin, last = vertices_.begin() + cell.end;
     const auto less = [&](std::int32_t a, std::int32_t b) {
       return point(a)[axis] != point(b)[axis] ? point(a)[axis] < point(b)[axis] : a < b;
     };
-    const auto middle = first + (last - first) / 2;
-    std::nth_element(first, middle, last, less);
-    return std::size_t(middle - vertices_.begin());
+    others_.assign(vertices_.begin() + cell.begin, vertices_.begin() + cell.end);
+    const auto middle = others_.begin() + std::ptrdiff_t(others_.size() / 2);
+    std::nth_element(others_.begin(), middle, others_.end(), less);
+    return part(cell, [&, median = *middle](std::int32_t v) { return less(v, median); });
+  }
+
+  template <class Is>
+  std::size_t part(const Cell &cell, const Is &is_first) {
+    return cell.begin + part_in_order({vertices_.data() + cell.begin, cell.end - cell.begin}, others_, is_first);
   }
 
   std::int32_t nearest_to_mean(const Cell &cell) const {
@@ -126,6 +142,7 @@ class SamplingTree {
   Span<std::int32_t> vertices_;
   double variation_;
   Job &job_;
+  Array<std::int32_t> others_;
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "geometry.hpp"
+#include "part_in_order.hpp"
 
 namespace tetlod {
 
@@ -191,23 +192,8 @@ class ResidualTree {
       }
     }
     if (axis < 0) return l.begin;
-    return part(l, [&](std::int32_t v) { return point(v)[axis] - centre[axis] < 0; });
-  }
-
-  /// Puts those of the leaf's vertices first for which that holds, all in their order; where the others begin.
-  template <class Is>
-  std::size_t part(const Leaf &l, const Is &is_first) {
-    others_.clear();
-    std::size_t end = l.begin;
-    for (std::size_t i = l.begin; i < l.end; i++) {
-      const std::int32_t v = vertices_[i];
-      if (is_first(v))
-        vertices_[end++] = v;
-      else
-        others_.push_back(v);
-    }
-    std::copy(others_.begin(), others_.end(), vertices_.begin() + std::ptrdiff_t(end));
-    return end;
+    return l.begin + part_in_order({vertices_.data() + l.begin, l.end - l.begin}, others_,
+                                   [&](std::int32_t v) { return point(v)[axis] - centre[axis] < 0; });
   }
 
   const MeshView &mesh_;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <numeric>
 #include <random>
@@ -239,13 +240,24 @@ TEST_F(Sample, PointsOneRoundingApart) {
   }
 }
 
-/// A tree as deep as there are vertices.
+/// A tree as deep as there are vertices, by its cuts.
 TEST_F(Sample, VeryUnbalanced) {
   for (int i = 0; i < 1000; i++) {
     mesh.points.push_back(Vec3(std::ldexp(1.0, -i), 0, 0));
     mesh.scalars.push_back(-i);
   }
   EXPECT_EQ(sample(all(), 0.5).size(), 1000u);
+}
+
+/// The extremes of each cell are its last two vertices: cuts alone would take the square of what there is.
+TEST_F(Sample, OscillationsThatGrowTakeNoTime) {
+  for (int i = 0; i < 60000; i++) {
+    mesh.points.push_back(Vec3(i, 0, 0));
+    mesh.scalars.push_back(i % 2 ? i : -i);
+  }
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_EQ(sample(all(), 0.5).size(), 60000u);
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 5);
 }
 
 TEST(AddFlagged, JoinsWhatIsMissingOnce) {
