@@ -2,7 +2,6 @@
 #include <algorithm>
 
 #include "arguments.hpp"
-#include "carry_fields.hpp"
 #include "context.hpp"
 #include "measure_error.hpp"
 #include "prepare.hpp"
@@ -89,8 +88,7 @@ tetlod_status tetlod_measure_error(tetlod_context *handle, int32_t samples_per_t
     options.seed = context.options.seed;
     Job job = job_of(context);
     ahead_of_what_is_kept(context, [&] {
-      refuse_changed(fingerprint_of_mesh(original, options, job), outcome.result);
-      const FieldError error = measure_error(original, options, outcome.result, samples_per_tet, job);
+      const FieldError error = measure_error(original, options, outcome.result, samples_per_tet, context.prepared, job);
       copy_struct(report_of(error, samples_per_tet), out);
     });
   });

@@ -80,7 +80,7 @@ Input original_of(const Outcome &outcome, const Input &now) {
   if (const char *changed = first_difference(outcome.input, now))
     fail(Status::state, "the %s of the last run are not submitted any more", changed);
   Input original = outcome.input;
-  original.flags = {};
+  original.flags = now.flags;
   original.fields.clear();
   return original;
 }

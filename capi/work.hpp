@@ -14,8 +14,8 @@ void require_mesh(const Input &input);
 void require_submitted(const Input &input);
 
 /// The mesh and the fields that steered the run that gave the outcome; throws Status::state when others are submitted
-/// now. A result compared with another input gives numbers that mean nothing, and nobody would notice. Flags and fields
-/// are left out: they are not needed again, and those of the run may be gone.
+/// now. A result compared with another input gives numbers that mean nothing, and nobody would notice. Flags are those
+/// of now, as those of the run may be gone; other fields are left out.
 Input original_of(const Outcome &outcome, const Input &now);
 
 /// body(). What is kept of earlier runs is the first to go when memory is short here, not in the remeshing process:

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "geometry.hpp"
+#include "in_its_run.hpp"
 #include "locate.hpp"
-#include "status.hpp"
 #include "transfer.hpp"
 #include "whole_arrays.hpp"
 
@@ -137,30 +137,10 @@ void split_fields(const Input &input, Job &job, Result &result) {
   }
 }
 
-void refuse_changed(const Fingerprint &mesh, const Result &result) {
-  if (!(mesh == result.original))
-    fail(Status::state,
-         "the submitted points or tets, or which values are finite, have changed since the run that made the result");
-}
-
-void refuse_other_jumps(const Original &original, const Result &result) {
-  if (original.torn != result.torn || !(original.moves.opened == result.moves.opened))
-    fail(Status::state, "a field jumps in other places of the mesh since the run that made the result");
-}
-
 void find_stencil(const Input &input, const Options &options, Prepared &prepared, Job &job, Result &result) {
   if (!result.stencil.ids.empty()) return;
-  const Fingerprint mesh = fingerprint_of_mesh(input, options, job);
-  refuse_changed(mesh, result);
   Prepared fresh(job.memory);
-  const bool held = prepared.holds(mesh, input, options, job) && prepared.original.moves == result.moves;
-  if (!held) {
-    Input bare = input;
-    bare.flags = {};  // which change nothing but moves, and may be wrong
-    prepare_with_boundary(bare, options, job, fresh.original, fresh.boundary, &result.moves);
-  }
-  Prepared &of = held ? prepared : fresh;
-  refuse_other_jumps(of.original, result);
+  Prepared &of = as_in_its_run(input, options, result, prepared, fresh, job);
   MeshView view = of.original.view;
   if (!result.mesh.solid.empty()) view.solid = of.solids(job);
   Array<Vec3> copy(&job.memory);

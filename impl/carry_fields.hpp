@@ -16,14 +16,7 @@ void carry_fields(const Input &input, const Options &options, const Original &or
 /// result.mesh.scalars, of all fields that steer, becomes those of the first; result.fields gets the others.
 void split_fields(const Input &input, Job &job, Result &result);
 
-/// Throws Status::state where points or tets are not those that the result was made from.
-void refuse_changed(const Fingerprint &mesh, const Result &result);
-
-/// The same where a field jumps between others of its parts, or across other cracks.
-void refuse_other_jumps(const Original &original, const Result &result);
-
-/// Writes result.stencil, where it is not there yet, from the input of the run, which is read again, or from
-/// what is prepared of it. Throws as the two above.
+/// Writes result.stencil, where it is not there yet, from the input of the run. Throws as as_in_its_run() does.
 void find_stencil(const Input &input, const Options &options, Prepared &prepared, Job &job, Result &result);
 
 }  // namespace tetlod

@@ -4,10 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "carry_fields.hpp"
 #include "geometry.hpp"
+#include "in_its_run.hpp"
 #include "kd_tree.hpp"
-#include "prepare.hpp"
 #include "random_place.hpp"
 #include "solids.hpp"
 #include "whole_arrays.hpp"
@@ -147,24 +146,20 @@ FieldError measure_error(const MeshView &original, double range, const TetMesh &
 }
 
 FieldError measure_error(const Input &input, const Options &options, const Result &result, int samples_per_tet,
-                         Job &job) {
-  Original original(job.memory);
-  {
-    Boundary boundary(job.memory);
-    prepare_with_boundary(input, options, job, original, boundary, &result.moves);
-  }
-  refuse_other_jumps(original, result);
+                         Prepared &prepared, Job &job) {
+  Prepared fresh(job.memory);
+  Prepared &of = as_in_its_run(input, options, result, prepared, fresh, job);
   job.enter(Stage::values);
-  Array<std::int32_t> solid(&job.memory);
-  if (!result.mesh.solid.empty()) solid = solids_of_vertices(original.view, job);
-  original.view.solid = solid;
+  const Original &original = of.original;
+  MeshView view = original.view;
+  if (!result.mesh.solid.empty()) view.solid = of.solids(job);
   const auto values_of = [&](std::size_t v, const auto &visit) {
-    if (!original.has_merged(v)) return visit(original.view.scalars[v * original.view.fields]);
+    if (!original.has_merged(v)) return visit(view.scalars[v * view.fields]);
     original.for_each_merged(v, [&](std::size_t u) { visit(input.scalars.real(std::int64_t(u), 0)); });
   };
   Array<Vec3> copy(&job.memory);
   const Field field(result.mesh, original.in_scale(result.mesh.points, copy), job);
-  return measure(original.view, values_of, original.scalar_max - original.scalar_min, field, samples_per_tet,
+  return measure(view, values_of, original.scalar_max - original.scalar_min, field, samples_per_tet,
                  std::uint64_t(options.seed), job);
 }
 

@@ -5,6 +5,7 @@
 #include "job.hpp"
 #include "mesh.hpp"
 #include "pipeline.hpp"
+#include "prepared.hpp"
 
 namespace tetlod {
 
@@ -20,9 +21,9 @@ struct FieldError {
 FieldError measure_error(const MeshView &original, double range, const TetMesh &result, int samples_per_tet,
                          std::uint64_t seed, Job &job);
 
-/// The same for the caller's arrays, without their flags; the input is read again, as the run that made the result did.
+/// The same for the input of the run that made the result. Throws as as_in_its_run() does.
 FieldError measure_error(const Input &input, const Options &options, const Result &result, int samples_per_tet,
-                         Job &job);
+                         Prepared &prepared, Job &job);
 
 /// counts[b] += the values in the b-th of `bins` equal parts of [low, high]; high itself is in the last, what is
 /// outside or not finite in none.

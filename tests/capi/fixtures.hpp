@@ -188,6 +188,7 @@ class CountingAllocator {
   }
   std::size_t in_use() const { return in_use_; }
   std::size_t most() const { return most_; }
+  std::size_t in_all() const { return in_all_; }  ///< bytes that were asked for
   long mismatches() const { return mismatches_; }
 
  private:
@@ -208,6 +209,7 @@ class CountingAllocator {
     if (!block) return nullptr;
     const Head asked{bytes, alignment};
     std::memcpy(block, &asked, sizeof asked);
+    in_all_ += bytes;
     const std::size_t now = in_use_ += bytes;
     for (std::size_t most = most_; now > most && !most_.compare_exchange_weak(most, now);) {
     }
@@ -225,7 +227,7 @@ class CountingAllocator {
 
   std::atomic<long> left_{-1};
   std::atomic<bool> failed_{false};
-  std::atomic<std::size_t> in_use_{0}, most_{0};
+  std::atomic<std::size_t> in_use_{0}, most_{0}, in_all_{0};
   std::atomic<long> mismatches_{0};
 };
 

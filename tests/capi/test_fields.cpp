@@ -279,21 +279,6 @@ TEST_F(Fields, TheStencilNeedsTheMeshOfItsRun) {
   EXPECT_EQ(move(field, 1), before);
 }
 
-/// Of the random points: as it is set when they are needed.
-TEST_F(Fields, TheSeedIsOfTheMeasurement) {
-  run();
-  double rms[3];
-  for (std::size_t i = 0; i < 3; i++) {
-    tetlod_error_report error{};
-    error.struct_size = sizeof error;
-    ASSERT_EQ(tetlod_set_int(context.get(), TETLOD_OPT_SEED, i == 1 ? 77 : 1), TETLOD_OK);
-    ASSERT_EQ(tetlod_measure_error(context.get(), 2, &error), TETLOD_OK);
-    rms[i] = error.rms_inner;
-  }
-  EXPECT_NE(rms[0], rms[1]);
-  EXPECT_EQ(rms[0], rms[2]);
-}
-
 /// Also where rounding puts a vertex beside the tet that it lies on a side of.
 TEST_F(Fields, WeightsOfTheStencilAreNotNegative) {
   for (int cells : {4, 6, 9})

@@ -162,7 +162,9 @@ TEST_F(Measure, OfSubmittedArrays) {
   for (double &s : result.scalars) s += 1;
   Result whole(host.memory);
   whole.mesh = as_result(result, host.memory);
-  const FieldError e = measure_error(input_of(mesh), Options(), whole, 2, host.job);
+  whole.original = fingerprint_of_mesh(input_of(mesh), Options(), host.job);
+  Prepared prepared(host.memory);
+  const FieldError e = measure_error(input_of(mesh), Options(), whole, 2, prepared, host.job);
   EXPECT_NEAR(e.rms, 0.1, 1e-12);
   EXPECT_NEAR(e.max_inner, 0.1, 1e-12);
 }

@@ -29,6 +29,12 @@ inline void run(const Input &input, const Options &options, Worker &worker, Job 
   run(input, options, worker, prepared, job, result);
 }
 
+inline FieldError measure_error(const Input &input, const Options &options, const Result &result, int samples_per_tet,
+                                Job &job) {
+  Prepared prepared(job.memory);
+  return measure_error(input, options, result, samples_per_tet, prepared, job);
+}
+
 class WholeRun : public testing::Test {
  protected:
   Host host;
