@@ -1,4 +1,4 @@
-// Has an array of the caller changed since it was last looked at? A number of its contents and layout tells.
+// Has an array of the caller changed since it was last looked at? Is a result the same? A number of the contents tells.
 #pragma once
 #include <cstdint>
 #include <cstring>
@@ -21,12 +21,16 @@ class Fingerprint {
     std::memcpy(&word, &real, sizeof word);
     add(word);
   }
-  void add(Span<const double> reals, Job &job) {
-    add_bytes(reinterpret_cast<const unsigned char *>(reals.data()), reals.size() * sizeof(double), job);
+  template <class T>
+  void add(Span<const T> items, Job &job) {
+    add(std::uint64_t(items.size()));
+    add_bytes(reinterpret_cast<const unsigned char *>(items.data()), items.size() * sizeof(T), job);
   }
   /// Contents, type and layout; not where it lies.
   void add(const StridedArray &array, Job &job);
 
+  /// Half of it.
+  std::uint64_t number() const { return word(0); }
   friend bool operator==(const Fingerprint &a, const Fingerprint &b) {
     return a.word(0) == b.word(0) && a.word(1) == b.word(1);
   }

@@ -9,7 +9,6 @@
 #include "decimate_solid_and_check.hpp"
 #include "describe.hpp"
 #include "footprint.hpp"
-#include "hash.hpp"
 #include "nested_solids.hpp"
 #include "refine.hpp"
 #include "remeshing.hpp"
@@ -327,6 +326,15 @@ class Pipeline : private Remeshing {
   double score_ = 0;               // of the last refinement
   Array<std::int32_t> beyond_{&job_.memory};  // the bound: original vertices, after the last refinement
 };
+
+/// The same result, the same number.
+std::uint64_t hash_of(const TetMesh &mesh, Job &job) {
+  Fingerprint bytes;
+  bytes.add(Span<const Vec3>(mesh.points), job);
+  bytes.add(Span<const double>(mesh.scalars), job);
+  bytes.add(Span<const Tet>(mesh.tets), job);
+  return bytes.number();
+}
 
 }  // namespace
 

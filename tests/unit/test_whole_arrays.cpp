@@ -73,7 +73,7 @@ TEST_P(WholeArrays, FingerprintsTellEveryWord) {
   Array<double> reals = array_of(size, 1.5, host.job);
   const auto fingerprint = [&](Job &job) {
     Fingerprint of;
-    of.add(reals, job);
+    of.add(Span<const double>(reals), job);
     return of;
   };
   const Fingerprint before = fingerprint(alone.job);
