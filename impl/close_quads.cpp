@@ -19,16 +19,18 @@ class ClosingQuads {
       : job_(job),
         triangles_(std::move(solid.boundary.triangles)),
         tet_of_(std::move(solid.boundary.tet_of)),
-        mesh_(std::move(solid), job) {}
+        mesh_(std::move(solid), job),
+        at_gap_(mesh_.view().points.size(), 0, &job.memory) {}
 
   /// One side comes to have the edges of the other, as long as a quad has two of these; then both come to be Delaunay.
-  void close(NumberedTets &solid) {
-    bool are_alike = false;
+  void close(NumberedTets &solid, bool is_divided) {
+    bool has_gaps = is_divided, are_alike = false;
     for (int round = 0; round < most_rounds; round++) {
       const TriangleCorners corners(mesh_.view().points.size(), triangles_, job_);
       bool any = add_flat_tets(crossed_quads(corners, are_alike));
+      has_gaps = has_gaps || any;
       are_alike = are_alike || !any;
-      any = any || add_flat_tets(find_slanted_quads(mesh_.view(), corners, tet_of_, job_));
+      any = any || (has_gaps && add_flat_tets(find_slanted_quads(mesh_.view(), corners, tet_of_, job_)));
       if (!any) break;
       mesh_.give_way();
       mesh_.find_outward_boundary(triangles_, tet_of_);
@@ -38,8 +40,8 @@ class ClosingQuads {
   }
 
  private:
-  Array<CrossedQuad> crossed_quads(const TriangleCorners &corners, bool closed_only) const {
-    Array<CrossedQuad> quads = find_crossed_quads(mesh_.view(), corners, tet_of_, job_);
+  Array<CrossedQuad> crossed_quads(const TriangleCorners &corners, bool closed_only) {
+    Array<CrossedQuad> quads = find_crossed_quads(mesh_.view(), corners, tet_of_, at_gap_, job_);
     const auto goes = [&](const CrossedQuad &quad) { return closed_only && !quad.is_closed(); };
     quads.erase(std::remove_if(quads.begin(), quads.end(), goes), quads.end());
     return quads;
@@ -69,10 +71,13 @@ class ClosingQuads {
   Array<Triangle> triangles_;   // of the boundary
   Array<std::int32_t> tet_of_;  // of each
   FlatTets mesh_;
+  Array<std::uint8_t> at_gap_;  // of each vertex
 };
 
 }  // namespace
 
-void close_crossed_quads(Job &job, NumberedTets &solid) { ClosingQuads(std::move(solid), job).close(solid); }
+void close_crossed_quads(bool is_divided, Job &job, NumberedTets &solid) {
+  ClosingQuads(std::move(solid), job).close(solid, is_divided);
+}
 
 }  // namespace tetlod

@@ -8,7 +8,6 @@
 #include "hanging_vertices.hpp"
 #include "nested_solids.hpp"
 #include "status.hpp"
-#include "usual_shape.hpp"
 
 namespace tetlod {
 
@@ -35,14 +34,8 @@ bool close_gaps(Job &job, NumberedTets &tets, bool inside_too) {
     is_refined = true;
     if (round == most_rounds || tets.tets.size() > most || !tets.find_boundary(job)) return false;
   }
-  close_crossed_quads(job, tets);
+  close_crossed_quads(is_refined, job, tets);
   return tets.find_boundary(job);
-}
-
-/// So flat that coordinates of six digits do not tell them from gaps: all vertices hang on edges, all quads are plane.
-bool are_flat_as_gaps(const MeshView &mesh, Job &job) {
-  constexpr double flattest = 1e-6;
-  return usual_shape2(mesh.points, mesh.tets, job.memory) < flattest * flattest;
 }
 
 /// Solids hang together, and none touches itself that did not before: thin ones have faces that only look like a gap's.
@@ -82,7 +75,7 @@ void take_replaced(const NumberedTets &tets, Job &job, Original &original) {
 }  // namespace
 
 void make_conforming(Job &job, Boundary &boundary, Original &original) {
-  if (!has_gaps(original.view, boundary, job) || are_flat_as_gaps(original.view, job)) return;
+  if (!has_gaps(original.view, boundary, job)) return;
   NumberedTets tets(original.view, original.tet_number, job.memory);
   if (!close_gaps(job, tets, true) || !are_no_worse(tets, original.view, boundary, job)) return;
   tets.boundary.flat_tets += boundary.flat_tets;

@@ -8,8 +8,8 @@ namespace tetlod {
 
 /// Divides tets at hanging vertices, and then, if there are such, at others on their edges and faces; then closes
 /// crossed quads, so that the faces in between are none of the boundary. Halves, and what takes the place of others,
-/// have their numbers. All stays as it is where no solid comes of it, where one would touch itself that does not, and
-/// where all tets are as flat as gaps. boundary: as extract_boundary() leaves it, with nothing excluded.
+/// have their numbers. All stays as it is where no solid comes of it, and where one would touch itself that does not.
+/// boundary: as extract_boundary() leaves it, with nothing excluded.
 void make_conforming(Job &job, Boundary &boundary, Original &original);
 
 /// The same of tets that have no boundary yet, but not at vertices inside of faces, which parts that were divided

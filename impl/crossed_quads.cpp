@@ -23,24 +23,26 @@ class CrossedQuads {
         taken_(triangles_.size(), 0, &job.memory),
         found_(&job.memory) {}
 
-  Array<CrossedQuad> find_crossed() {
+  Array<CrossedQuad> find_crossed(Array<std::uint8_t> &at_gap) {
     for_each_edge([&](std::int32_t x, const Corner &left, const Corner &right) {
       const CrossedQuad quad = quad_at(x, left, right);
       if (quad.other[0] >= 0 && !is_taken(quad) && is_crossed(quad)) take(quad);
     });
+    leave_cavities(at_gap);
     return std::move(found_);
   }
 
-  bool any_crossed() const {
-    FirstCulprit culprit;
+  bool any_crossed() {
+    FirstCulprit gap, cavity;
     job_.parallel.for_blocks(mesh_.points.size(), block, [&](std::size_t begin, std::size_t end) {
-      if (culprit.any()) return;
+      if (gap.any()) return;
       for_each_edge(begin, end, [&](std::int32_t x, const Corner &left, const Corner &right) {
         const CrossedQuad quad = quad_at(x, left, right);
-        if (quad.other[0] >= 0 && is_crossed(quad)) culprit.report(std::size_t(x));
+        if (quad.other[0] >= 0 && is_crossed(quad)) (may_be_cavity(quad) ? cavity : gap).report(std::size_t(x));
       });
     });
-    return culprit.any();
+    Array<std::uint8_t> at_gap(mesh_.points.size(), 0, &job_.memory);
+    return gap.any() || (cavity.any() && !find_crossed(at_gap).empty());
   }
 
   Array<CrossedQuad> find_slanted() {
@@ -113,20 +115,39 @@ class CrossedQuads {
     found_.push_back(quad);
   }
 
-  /// Over the cube of the longest side, along an axis.
-  double volume_of(const Tet &t) const {
-    Vec3 sides[3];
-    double longest = 0;
-    for (std::size_t k = 0; k < 3; k++) {
-      sides[k] = at(t[k + 1]) - at(t[0]);
-      for (int i = 0; i < 3; i++) longest = std::max(longest, std::abs(sides[k][i]));
-    }
-    return std::abs(glm::dot(glm::cross(sides[0] / longest, sides[1] / longest), sides[2] / longest));
+  /// Of the tets at the triangles, what the largest has: so that a mesh may be squeezed, or stretched.
+  bool is_small_beside(const CrossedQuad &quad, double most) const {
+    double largest = 0;
+    for (const std::int32_t t : {quad.one[0], quad.one[1], quad.other[0], quad.other[1]})
+      if (t >= 0) largest = std::max(largest, volume6(mesh_.tets[std::size_t(tet_of_[std::size_t(t)])]));
+    return volume6(quad.tet) <= most * largest;
+  }
+
+  double volume6(const Tet &t) const { return std::abs(six_volume(mesh_.points, t)); }
+  bool is_flat(const CrossedQuad &quad) const { return is_small_beside(quad, 0.01); }
+
+  /// Four triangles may bound a cavity as well, of the shape of a tet.
+  bool may_be_cavity(const CrossedQuad &quad) const {
+    return quad.is_closed() && side_of(quad.tet) > 0 && !is_small_beside(quad, 1e-4);
+  }
+
+  /// Where hexahedra were split, the tets of others beside it overlap, have no volume, or have two triangles.
+  void leave_cavities(Array<std::uint8_t> &at_gap) {
+    const auto put_at_gap = [&](const CrossedQuad &quad) {
+      for (const std::int32_t v : quad.tet) at_gap[std::size_t(v)] = 1;
+    };
+    for (const CrossedQuad &quad : found_)
+      if (!may_be_cavity(quad)) put_at_gap(quad);
+    const auto is_cavity = [&](const CrossedQuad &quad) {
+      return may_be_cavity(quad) && std::none_of(quad.tet.begin(), quad.tet.end(),
+                                                 [&](std::int32_t v) { return at_gap[std::size_t(v)] != 0; });
+    };
+    found_.erase(std::remove_if(found_.begin(), found_.end(), is_cavity), found_.end());
+    for (const CrossedQuad &quad : found_) put_at_gap(quad);
   }
 
   bool bounds_next_to_nothing(const CrossedQuad &quad) const {
-    constexpr double most = 0.1;
-    if (volume_of(quad.tet) > most) return false;
+    if (!is_small_beside(quad, 0.5)) return false;
     const auto is_of_a_solid = [&](std::int32_t t) {
       return is_inside(quad.tet, mesh_.tets[std::size_t(tet_of_[std::size_t(t)])]);
     };
@@ -152,10 +173,10 @@ class CrossedQuads {
 
   /// The diagonal of the first two: the quad is plane, and convex.
   bool may_turn(const CrossedQuad &quad) const {
-    constexpr double plane = 1e-4, least = 0.01;
+    constexpr double least = 0.01;
     const auto [x, y, u, v] = quad.tet;
     const Vec3 n = normal(x, y, u);
-    return volume_of(quad.tet) <= plane && glm::dot(n, normal(v, y, u)) > least * length2(n) &&
+    return is_flat(quad) && glm::dot(n, normal(v, y, u)) > least * length2(n) &&
            glm::dot(n, normal(u, x, v)) > least * length2(n);
   }
 
@@ -194,8 +215,8 @@ class CrossedQuads {
 }  // namespace
 
 Array<CrossedQuad> find_crossed_quads(const MeshView &mesh, const TriangleCorners &corners,
-                                      Span<const std::int32_t> tet_of, Job &job) {
-  return CrossedQuads(mesh, corners, tet_of, job).find_crossed();
+                                      Span<const std::int32_t> tet_of, Array<std::uint8_t> &at_gap, Job &job) {
+  return CrossedQuads(mesh, corners, tet_of, job).find_crossed(at_gap);
 }
 
 bool any_crossed_quads(const MeshView &mesh, const TriangleCorners &corners, Span<const std::int32_t> tet_of,

@@ -17,11 +17,13 @@ struct CrossedQuad {
   bool is_closed() const { return other[1] >= 0; }  ///< by that tet
 };
 
-/// corners: of triangles that one tet each has, tet_of, seen from outside. The tet of four triangles may have a tenth
-/// of the cube of its longest side, and is none of the mesh; that of others is flat, but for rounding. Each triangle is
-/// of one quad at most. At vertices of very many triangles none are looked for.
+/// corners: of triangles that one tet each has, tet_of, seen from outside. The quad's tet is none of the mesh, and has
+/// a hundredth of the volume of the largest tet at the triangles at most; that of four triangles may have half, but
+/// where it may be a cavity, with no vertex of a quad that is none, or was found before. Each triangle is of one quad
+/// at most. At vertices of very many triangles none are looked for. at_gap: of each vertex, whether such a quad has it;
+/// so far, and after.
 Array<CrossedQuad> find_crossed_quads(const MeshView &mesh, const TriangleCorners &corners,
-                                      Span<const std::int32_t> tet_of, Job &job);
+                                      Span<const std::int32_t> tet_of, Array<std::uint8_t> &at_gap, Job &job);
 bool any_crossed_quads(const MeshView &mesh, const TriangleCorners &corners, Span<const std::int32_t> tet_of, Job &job);
 
 /// Pairs of triangles with an edge in common, each of which has one that lies back to back on another at one of its

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "geometry.hpp"
 #include "hanging_vertices.hpp"
 #include "predicates.hpp"
 #include "vertices_on_triangles.hpp"
@@ -36,7 +37,7 @@ class EdgeDivision {
     }
   }
 
-  /// Whether there are such tets, and none turns over.
+  /// Whether there are such tets, the vertex is next to their edge, and none turns over.
   bool divide(const HangingVertex &h) {
     job_.poll(0.9);
     Array<std::int32_t> at_edge(&job_.memory);
@@ -45,7 +46,8 @@ class EdgeDivision {
     // One that has lost the vertex and got it again is there twice.
     std::sort(at_edge.begin(), at_edge.end());
     at_edge.erase(std::unique(at_edge.begin(), at_edge.end()), at_edge.end());
-    if (at_edge.empty() ||
+    const auto is_next_to_edge = [&](std::int32_t t) { return is_next_to_edge_of(tets_[std::size_t(t)], h); };
+    if (std::none_of(at_edge.begin(), at_edge.end(), is_next_to_edge) ||
         !std::all_of(at_edge.begin(), at_edge.end(), [&](std::int32_t t) { return may_divide(t, h); }))
       return false;
     for (const std::int32_t t : at_edge) {
@@ -67,6 +69,15 @@ class EdgeDivision {
   /// To the list of vertex v, if it has one.
   void add(std::int32_t v, std::int32_t t) {
     if (const std::int32_t list = list_of_[std::size_t(v)]; list >= 0) lists_[std::size_t(list)].push_back(t);
+  }
+
+  /// By the tet's own measure, as all is next to all in a mesh that is flat.
+  bool is_next_to_edge_of(const Tet &tet, const HangingVertex &h) const {
+    constexpr double most = 0.1;  // of the weight of a corner that is not on the edge
+    const double whole = std::abs(six_volume(points_, tet));
+    return std::all_of(tet.begin(), tet.end(), [&](std::int32_t v) {
+      return v == h.from || v == h.to || std::abs(six_volume(points_, with(tet, v, h.vertex))) <= most * whole;
+    });
   }
 
   bool may_divide(std::int32_t t, const HangingVertex &h) const {

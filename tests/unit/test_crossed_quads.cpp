@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <random>
 
 #include "brute_force.hpp"
 #include "close_quads.hpp"
@@ -138,6 +139,67 @@ TEST_F(CrossedQuads, AreNoCavitiesAndNoSolids) {
   mesh.tets.erase(mesh.tets.begin(), mesh.tets.end() - 4);
   prepare(mesh);
   EXPECT_EQ(boundary.triangles.size(), 4U);
+}
+
+/// However flat, and where two touch.
+TEST_F(CrossedQuads, AreNoCavitiesInFlatBodies) {
+  const auto without = [](Mesh mesh, const std::vector<std::ptrdiff_t> &tets) {
+    for (const std::ptrdiff_t t : tets) mesh.tets.erase(mesh.tets.begin() + t);
+    return mesh;
+  };
+  const Mesh cube = kuhn_cube(5);
+  const std::ptrdiff_t middle = 6 * 62, next = 6 * (62 + 1 + 5 + 25);
+  for (const double flat : {1.0, 0.05, 1e-3, 1e-6}) {
+    for (Mesh mesh : {without(cube, {middle + 1}), without(cube, {next + 2, middle + 1})}) {
+      const std::size_t faces = brute_boundary(mesh).size();
+      ASSERT_GE(faces, 304U);
+      transform(mesh, [&](const Vec3 &p) { return Vec3(p.x, p.y, flat * p.z); });
+      prepare(mesh);
+      EXPECT_EQ(boundary.triangles.size(), faces) << flat;
+      Tet sliver = cube.tets[std::size_t(middle + 1)];
+      Vec3 &tip = mesh.points[std::size_t(sliver[3])];
+      const Vec3 on_face = (mesh.points[std::size_t(sliver[0])] + mesh.points[std::size_t(sliver[1])] +
+                            mesh.points[std::size_t(sliver[2])]) /
+                           3.0;
+      tip = on_face + 0.1 * (tip - on_face);
+      prepare(mesh);
+      ASSERT_TRUE(original.moves.upright.empty());
+      EXPECT_EQ(boundary.triangles.size(), faces) << "a sliver, " << flat;
+    }
+  }
+}
+
+/// Of some the tets beside it are three times as large, or more; some touch.
+TEST_F(CrossedQuads, AreNoPores) {
+  for (unsigned seed = 1; seed <= 6; seed++) {
+    Mesh mesh = kuhn_cube(8);
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> shift(-0.035, 0.035), part(0, 1);
+    for (Vec3 &p : mesh.points) p += Vec3(shift(random), shift(random), shift(random));
+    const auto is_gone = [&](const Tet &) { return part(random) < 0.02 * seed; };
+    mesh.tets.erase(std::remove_if(mesh.tets.begin(), mesh.tets.end(), is_gone), mesh.tets.end());
+    const std::size_t tets = mesh.tets.size(), faces = brute_boundary(mesh).size();
+    prepare(mesh);
+    EXPECT_EQ(boundary.triangles.size(), faces) << seed;
+    EXPECT_EQ(original.view.tets.size(), tets) << seed;
+  }
+}
+
+/// By the measure of a mesh that is flat many faces are next to one another.
+TEST_F(CrossedQuads, AreNoneInFlatBodiesThatConform) {
+  for (unsigned seed = 1; seed <= 12; seed++) {
+    Mesh mesh = random_solid(6, 0.9, seed);
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> shift(-0.03, 0.03);
+    for (Vec3 &p : mesh.points) p += Vec3(shift(random), shift(random), shift(random));
+    for (const double flat : {1.0, 1e-3, 1e-4, 1e-5}) {
+      Mesh squeezed = mesh;
+      transform(squeezed, [&](const Vec3 &p) { return Vec3(p.x, p.y, flat * p.z); });
+      prepare(squeezed);
+      EXPECT_EQ(original.view.tets.size(), mesh.tets.size()) << seed << ' ' << flat;
+      EXPECT_TRUE(original.replaced.empty()) << seed << ' ' << flat;
+    }
+  }
 }
 
 /// Cells that are no boxes: flat tets give way late, and what was tried for one is undone in whole.
