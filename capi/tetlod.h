@@ -32,7 +32,7 @@
  *              floating-point state or the environment, and no C++ exception leaves it. TetGen runs in a child process,
  *              tetlod-remesh, until tetlod_destroy(); a host that waits for all of its children waits for it, too.
  *   Results    The same input, options and seed give the same bytes, whatever the number of threads (with
- *              TETLOD_OPT_WARM_START, after the same runs).
+ *              TETLOD_OPT_WARM_START, after the same runs; near memory_limit, where the same is left out).
  */
 #ifndef TETLOD_H
 #define TETLOD_H

@@ -72,7 +72,10 @@ class Inspection {
 
   void look_at_indices() {
     used_.assign(mesh_.points.size(), false);
+    named_ = used_;
     for (const Corners &tet : mesh_.tets) {
+      for (const std::int64_t v : tet)
+        if (v >= 0 && v < mesh_.point_count()) named_[std::size_t(v)] = true;
       if (!in_range(tet, mesh_)) {
         facts_.index++;
         continue;
@@ -85,7 +88,7 @@ class Inspection {
   void look_at_points() {
     for (std::size_t v = 0; v < used_.size(); v++) {
       if (!used_[v]) {
-        facts_.unused++;
+        facts_.unused += !named_[v];
       } else if (!finite(mesh_.points[v])) {
         facts_.nonfinite_points++;
         used_[v] = false;
@@ -349,7 +352,7 @@ class Inspection {
   const Mesh &mesh_;
   const Repairs repairs_;
   Facts facts_;
-  std::vector<bool> used_;
+  std::vector<bool> used_, named_;        // by a tet that counts; by any
   std::map<Corners, Corners> submitted_;  // of merged corners, the first that became these
   std::vector<Corners> tets_;
 };

@@ -100,7 +100,7 @@ inline double triangles_for(double tets) { return 2 * tets / tets_a_boundary_poi
 inline Budget budget_of(double ratio, const Report &report) {
   Budget budget;
   const double whole = double(report.sound_tets()), triangles = double(report.boundary_triangles_in);
-  budget.tets = std::int64_t(ratio * whole);
+  budget.tets = std::max<std::int64_t>(std::int64_t(ratio * whole), 1);
   // Of the tets; of a mesh that is nearly all boundary, what the few vertices inside leave.
   const double inside = tets_a_sample * ratio * double(report.interior_points_in);
   const double share = std::max(0.6 * double(budget.tets), (1 - spare) * double(budget.tets) - inside);

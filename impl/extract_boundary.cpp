@@ -53,12 +53,14 @@ void look_at_shared_face(const MeshView &mesh, std::int32_t low, Span<const Face
   const Array<std::uint8_t> again = find_given_again(uses, mesh.tets, job);
   for (std::size_t i = 0; i < uses.size(); i++)
     if (again[i]) found.duplicate.push_back(std::int32_t(uses[i].tet()));
-  const auto different = std::count(again.begin(), again.end(), 0);
-  if (different > 2 && found.crowded.empty())
+  Array<std::size_t> different(&job.memory);
+  for (std::size_t i = 0; i < uses.size(); i++)
+    if (!again[i]) different.push_back(uses[i].tet());
+  if (different.size() > 2 && found.crowded.empty())
     found.crowded =
-        text("%d tets share the face of vertices %lld, %lld and %lld (the first are tets %lld, %lld, %lld)",
-             int(different), numbers.vertex(low), numbers.vertex(uses[0].middle), numbers.vertex(uses[0].high),
-             numbers.tet(uses[0].tet()), numbers.tet(uses[1].tet()), numbers.tet(uses[2].tet()));
+        text("%zu tets share the face of vertices %lld, %lld and %lld (the first are tets %lld, %lld, %lld)",
+             different.size(), numbers.vertex(low), numbers.vertex(uses[0].middle), numbers.vertex(uses[0].high),
+             numbers.tet(different[0]), numbers.tet(different[1]), numbers.tet(different[2]));
 }
 
 Found sweep(const MeshView &mesh, Span<const std::uint8_t> excluded, const HostNumbers &numbers, Job &job) {

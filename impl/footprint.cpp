@@ -207,7 +207,7 @@ Outlook outlook_of(const Original &original, const Boundary &boundary, Span<cons
   }
   if (collapses_edges(options, report)) {
     of.solid_tets = double(original.view.tets.size());
-    of.solid_points = double(original.view.points.size());
+    of.solid_points = double(original.view.points.size()) - double(boundary.unused_points);
   }
   of.fields = double(original.view.fields);
   of.tets = std::max(double(budget.tets), tets_for_bound(original.view, options.max_error * original.range, job));

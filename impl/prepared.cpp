@@ -1,5 +1,6 @@
 #include "prepared.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "budget.hpp"
@@ -28,17 +29,20 @@ Fingerprint fingerprint_of(Span<const double> values, const DecimateOptions &opt
   return fingerprint;
 }
 
-/// Where they are, in which field: their points and tets are ignored.
+/// Which points have one, in whichever field: they and their tets are ignored.
 void add_nonfinite_values(const Input &input, Job &job, Fingerprint &mesh) {
-  const auto add = [&](const StridedArray &values) {
-    for (std::int64_t v = 0; v < values.tuples; v++) {
-      job.poll_at(std::size_t(v), 0);
-      if (!std::isfinite(values.real(v, 0))) mesh.add(std::uint64_t(v));
-    }
-    mesh.add(std::uint64_t(values.tuples));
+  const auto is_none = [](const StridedArray &values, std::int64_t v) {
+    return v < values.tuples && !std::isfinite(values.real(v, 0));
   };
-  add(input.scalars);
-  for (const SteeringField &field : input.steering) add(field.values);
+  const auto is_ignored = [&](std::int64_t v) {
+    return is_none(input.scalars, v) ||
+           std::any_of(input.steering.begin(), input.steering.end(),
+                       [&](const SteeringField &field) { return is_none(field.values, v); });
+  };
+  for (std::int64_t v = 0; v < input.scalars.tuples; v++) {
+    job.poll_at(std::size_t(v), 0);
+    if (is_ignored(v)) mesh.add(std::uint64_t(v));
+  }
 }
 
 }  // namespace

@@ -55,7 +55,16 @@ class Inspector {
       if (sound)
         keep(tet, std::int32_t(t));
       else
-        found_.index.add(t + base_);
+        add_bad(t);
+    }
+  }
+
+  void add_bad(std::int64_t t) {
+    found_.index.add(t + base_);
+    in_bad_tet_.resize(std::size_t(found_.points), 0);
+    for (int k = 0; k < 4; k++) {
+      const std::int64_t v = input_.tets.integer(t, k);
+      if (v >= base_ && v < found_.points + base_) in_bad_tet_[std::size_t(v - base_)] = 1;
     }
   }
 
@@ -73,7 +82,7 @@ class Inspector {
       const std::int64_t name = std::int64_t(v) + base_;
       for (int k = 0; k < 3; k++) points_[v][k] = input_.xyz[std::size_t(k)].real(std::int64_t(v), 0);
       if (!used_[v]) {
-        found_.unused.add(name);
+        if (in_bad_tet_.empty() || !in_bad_tet_[v]) found_.unused.add(name);
       } else if (!is_finite(points_[v])) {
         found_.nonfinite_points.add(name);
         used_[v] = 0;
@@ -220,6 +229,7 @@ class Inspector {
   Array<Vec3> points_{&job_.memory};
   Array<double> values_{&job_.memory};
   Array<std::uint8_t> used_{&job_.memory};
+  Array<std::uint8_t> in_bad_tet_{&job_.memory};  // of each point; empty: there is none
 };
 
 /// The classes that a policy governs, in the order in which they are refused.
@@ -269,6 +279,7 @@ Error verdict_on(const Input &input, const Options &options, const Defects &defe
 }
 
 void refuse_defects(const Defects &defects, const Options &options) {
+  if (defects.index.count) return;  // whoever prepares the mesh refuses that, by its own status
   for (const Rule &rule : rules) {
     const Defect &defect = defects.*rule.defect;
     if (defect.count && options.*rule.policy == policy_error)

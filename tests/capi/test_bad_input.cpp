@@ -238,4 +238,33 @@ TEST(Messages, TellSolidsInContactFromABodyThatCrossesItself) {
 INSTANTIATE_TEST_SUITE_P(Each, BadInputs, testing::ValuesIn(inputs),
                          [](const auto &info) { return std::string(info.param.name); });
 
+/// One that is given twice is one of them.
+TEST(Messages, NameThreeTetsOfAFace) {
+  Cube cube(1);
+  cube.corners = {0, 1, 2, 4, 4, 2, 1, 0, 0, 1, 2, 5, 0, 1, 2, 6};
+  const Context context = make_context();
+  submit(context.get(), cube);
+  EXPECT_EQ(tetlod_run(context.get()), TETLOD_ERR_MESH_NONMANIFOLD);
+  EXPECT_NE(message_of(context.get()).find("3 tets share the face"), std::string::npos) << message_of(context.get());
+  EXPECT_NE(message_of(context.get()).find("tets 0, 2, 3)"), std::string::npos) << message_of(context.get());
+}
+
+/// Whatever a policy refuses: of a tet with a wrong one the other points are in a tet.
+TEST(Messages, NameAWrongIndexFirst) {
+  Cube cube(2);
+  cube.xyz.insert(cube.xyz.end(), 3, 2);
+  cube.values.push_back(0);
+  cube.corners.insert(cube.corners.end(), {0, 1, std::int32_t(cube.values.size()) - 1, 4711});
+  const Context context = make_context();
+  submit(context.get(), cube);
+  ASSERT_EQ(tetlod_set_int(context.get(), TETLOD_OPT_ON_UNUSED, TETLOD_POLICY_ERROR), TETLOD_OK);
+  tetlod_mesh_report found{};
+  found.struct_size = sizeof found;
+  ASSERT_EQ(tetlod_check(context.get(), &found), TETLOD_OK);
+  EXPECT_EQ(found.unused.count, 0);
+  EXPECT_EQ(found.index.count, 1);
+  EXPECT_EQ(found.status, TETLOD_ERR_MESH_INDEX);
+  EXPECT_EQ(tetlod_run(context.get()), TETLOD_ERR_MESH_INDEX);
+}
+
 }  // namespace

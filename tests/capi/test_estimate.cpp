@@ -31,6 +31,27 @@ TEST(EstimateMemory, IsWithinAFactorOfOneAndAHalf) {
       }
 }
 
+/// Of the submitted points few are the mesh's: others are in no tet, or become one.
+TEST(EstimateMemory, OfPointsThatAreNoVertices) {
+  const Cube cube(20);
+  Cube unused = cube, apart = cube;
+  unused.xyz.resize(20 * cube.xyz.size(), 7);
+  unused.values.resize(20 * cube.values.size(), 0);
+  apart.xyz.clear();
+  apart.values.clear();
+  for (std::int32_t &v : apart.corners) {
+    apart.xyz.insert(apart.xyz.end(), &cube.xyz[3 * std::size_t(v)], &cube.xyz[3 * std::size_t(v)] + 3);
+    apart.values.push_back(cube.values[std::size_t(v)]);
+    v = std::int32_t(apart.values.size()) - 1;
+  }
+  for (const Cube &mesh : {unused, apart}) {
+    const Context context = make_context();
+    submit(context.get(), mesh);
+    ASSERT_EQ(tetlod_set_real(context.get(), TETLOD_OPT_TARGET_RATIO, 0.1), TETLOD_OK);
+    expect_estimate(context.get(), std::to_string(mesh.values.size()) + " points");
+  }
+}
+
 /// Sizes, bounds and fields, also of cells, each with stages of their own.
 TEST(EstimateMemory, KnowsTargetsBoundsAndFields) {
   Cube cube(20);

@@ -87,6 +87,21 @@ TEST_F(Pictures, AFolderThatCannotBeMade) {
     expect_nothing_done(run_with(in_the_way), 2);
 }
 
+TEST_F(Pictures, ALinkToAFileOfTheRun) {
+  write_cube(folder / "in.vtk", {});
+  ASSERT_EQ(run_tool({folder / "in.vtk", folder / "in.pvtu", "--sigma", "1"}).status, 0);
+  const std::string pictures = folder / "pictures", link = folder / "pictures/report.html";
+  std::filesystem::create_directory(pictures);
+  for (const std::string file : {"in.pvtu", "in_0.vtu", "out.vtu"}) {
+    std::filesystem::create_symlink(folder / file, link);
+    const Outcome outcome = run_tool({folder / "in.pvtu", folder / "out.vtu", "--pictures", pictures});
+    EXPECT_EQ(outcome.status, 2) << file;
+    EXPECT_EQ(outcome.err, "tetlod: " + link + ": --pictures would overwrite " + (folder / file) + "\n");
+    std::filesystem::remove(link);
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder / "out.vtu"));
+}
+
 TEST_F(Pictures, APictureThatBecomesTooLarge) {
   write_cube(folder / "in.vtk", {});
   const std::string pictures = folder / "pictures";
