@@ -41,8 +41,9 @@ class CrossedQuads {
         if (quad.other[0] >= 0 && is_crossed(quad)) (may_be_cavity(quad) ? cavity : gap).report(std::size_t(x));
       });
     });
+    if (gap.any() || !cavity.any()) return gap.any();
     Array<std::uint8_t> at_gap(mesh_.points.size(), 0, &job_.memory);
-    return gap.any() || (cavity.any() && !find_crossed(at_gap).empty());
+    return !find_crossed(at_gap).empty();
   }
 
   Array<CrossedQuad> find_slanted() {
@@ -57,6 +58,8 @@ class CrossedQuads {
 
  private:
   static constexpr std::size_t block = 1024;
+  /// Of the volume of the tets beside a quad, what its own has at most.
+  static constexpr double next_to_nothing = 0.5, flat = 0.01, no_volume = 1e-4;
 
   const Vec3 &at(std::int32_t v) const { return mesh_.points[std::size_t(v)]; }
   Vec3 normal(std::int32_t a, std::int32_t b, std::int32_t c) const { return area_vector(at(a), at(b), at(c)); }
@@ -124,11 +127,11 @@ class CrossedQuads {
   }
 
   double volume6(const Tet &t) const { return std::abs(six_volume(mesh_.points, t)); }
-  bool is_flat(const CrossedQuad &quad) const { return is_small_beside(quad, 0.01); }
+  bool is_flat(const CrossedQuad &quad) const { return is_small_beside(quad, flat); }
 
   /// Four triangles may bound a cavity as well, of the shape of a tet.
   bool may_be_cavity(const CrossedQuad &quad) const {
-    return quad.is_closed() && side_of(quad.tet) > 0 && !is_small_beside(quad, 1e-4);
+    return quad.is_closed() && side_of(quad.tet) > 0 && !is_small_beside(quad, no_volume);
   }
 
   /// Where hexahedra were split, the tets of others beside it overlap, have no volume, or have two triangles.
@@ -147,7 +150,7 @@ class CrossedQuads {
   }
 
   bool bounds_next_to_nothing(const CrossedQuad &quad) const {
-    if (!is_small_beside(quad, 0.5)) return false;
+    if (!is_small_beside(quad, next_to_nothing)) return false;
     const auto is_of_a_solid = [&](std::int32_t t) {
       return is_inside(quad.tet, mesh_.tets[std::size_t(tet_of_[std::size_t(t)])]);
     };
