@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "first_culprit.hpp"
@@ -134,13 +135,38 @@ class CrossedQuads {
     return quad.is_closed() && side_of(quad.tet) > 0 && !is_small_beside(quad, no_volume);
   }
 
-  /// Where hexahedra were split, the tets of others beside it overlap, have no volume, or have two triangles.
+  using Edge = std::pair<std::int32_t, std::int32_t>;
+  static std::array<Edge, 6> edges_of(const Tet &t) {
+    return {std::minmax(t[0], t[1]), std::minmax(t[0], t[2]), std::minmax(t[0], t[3]),
+            std::minmax(t[1], t[2]), std::minmax(t[1], t[3]), std::minmax(t[2], t[3])};
+  }
+
+  /// Of all quads' tets.
+  Array<Edge> sorted_edges() const {
+    Array<Edge> edges(&job_.memory);
+    for (const CrossedQuad &quad : found_)
+      for (const Edge &edge : edges_of(quad.tet)) edges.push_back(edge);
+    std::sort(edges.begin(), edges.end(), PollingLess(job_, 0.9, std::less<Edge>()));
+    return edges;
+  }
+
+  /// Where hexahedra were split, the tets of others beside it overlap, have no volume, or have two triangles; or it is
+  /// one of a sheet, with others at its four sides.
   void leave_cavities(Array<std::uint8_t> &at_gap) {
+    const Array<Edge> edges = sorted_edges();
+    const auto is_shared = [&](const Edge &edge) {
+      const auto [first, last] = std::equal_range(edges.begin(), edges.end(), edge);
+      return last - first > 1;
+    };
+    const auto is_of_sheet = [&](const CrossedQuad &quad) {
+      const std::array<Edge, 6> of_quad = edges_of(quad.tet);
+      return std::count_if(of_quad.begin(), of_quad.end(), is_shared) > 3;
+    };
     const auto put_at_gap = [&](const CrossedQuad &quad) {
       for (const std::int32_t v : quad.tet) at_gap[std::size_t(v)] = 1;
     };
     for (const CrossedQuad &quad : found_)
-      if (!may_be_cavity(quad)) put_at_gap(quad);
+      if (!may_be_cavity(quad) || is_of_sheet(quad)) put_at_gap(quad);
     const auto is_cavity = [&](const CrossedQuad &quad) {
       return may_be_cavity(quad) && std::none_of(quad.tet.begin(), quad.tet.end(),
                                                  [&](std::int32_t v) { return at_gap[std::size_t(v)] != 0; });

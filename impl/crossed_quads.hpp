@@ -19,9 +19,9 @@ struct CrossedQuad {
 
 /// corners: of triangles that one tet each has, tet_of, seen from outside. The quad's tet is none of the mesh, and has
 /// a hundredth of the volume of the largest tet at the triangles at most; that of four triangles may have half, but
-/// where it may be a cavity, with no vertex of a quad that is none, or was found before. Each triangle is of one quad
-/// at most. At vertices of very many triangles none are looked for. at_gap: of each vertex, whether such a quad has it;
-/// so far, and after.
+/// where it may be a cavity: with no vertex of a quad that is none, or was found before, and not on four sides others
+/// that may be one. Each triangle is of one quad at most. At vertices of very many triangles none are looked for.
+/// at_gap: of each vertex, whether such a quad has it; so far, and after.
 Array<CrossedQuad> find_crossed_quads(const MeshView &mesh, const TriangleCorners &corners,
                                       Span<const std::int32_t> tet_of, Array<std::uint8_t> &at_gap, Job &job);
 bool any_crossed_quads(const MeshView &mesh, const TriangleCorners &corners, Span<const std::int32_t> tet_of, Job &job);

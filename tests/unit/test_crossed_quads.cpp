@@ -96,6 +96,20 @@ TEST_F(CrossedQuads, AreClosedBetweenParts) {
   EXPECT_EQ(original.merged_points, 0);
 }
 
+/// All of whose tets overlap, or none: a saddle turns alike everywhere.
+TEST_F(CrossedQuads, AreClosedBetweenPartsThatMeetInASaddle) {
+  for (const double turn : {0.3, -0.3}) {
+    const int n = 4;
+    Mesh mesh = kuhn_cube(n), other = mesh;
+    transform(other, [](const Vec3 &p) { return Vec3(1 + p.x, 1 - p.y, p.z); });
+    append(mesh, other);
+    transform(mesh, [&](const Vec3 &p) { return Vec3(p.x + turn * (p.y - 0.5) * (p.z - 0.5), p.y, p.z); });
+    prepare(mesh);
+    expect_conforming();
+    EXPECT_EQ(boundary.triangles.size(), std::size_t(20 * n * n)) << turn;
+  }
+}
+
 /// Numbers are those of tets nearby.
 TEST_F(CrossedQuads, LeaveNumbersInPlace) {
   const Mesh mesh = cubes_in_five(5);
