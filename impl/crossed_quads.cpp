@@ -141,10 +141,9 @@ class CrossedQuads {
             std::minmax(t[1], t[2]), std::minmax(t[1], t[3]), std::minmax(t[2], t[3])};
   }
 
-  /// Of all quads' tets.
-  Array<Edge> sorted_edges() const {
+  Array<Edge> sorted_edges(Span<const CrossedQuad> quads) const {
     Array<Edge> edges(&job_.memory);
-    for (const CrossedQuad &quad : found_)
+    for (const CrossedQuad &quad : quads)
       for (const Edge &edge : edges_of(quad.tet)) edges.push_back(edge);
     std::sort(edges.begin(), edges.end(), PollingLess(job_, 0.9, std::less<Edge>()));
     return edges;
@@ -153,26 +152,29 @@ class CrossedQuads {
   /// Where hexahedra were split, the tets of others beside it overlap, have no volume, or have two triangles; or it is
   /// one of a sheet, with others at its four sides.
   void leave_cavities(Array<std::uint8_t> &at_gap) {
-    const Array<Edge> edges = sorted_edges();
+    const auto put_at_gap = [&](const CrossedQuad &quad) {
+      for (const std::int32_t v : quad.tet) at_gap[std::size_t(v)] = 1;
+    };
+    Array<CrossedQuad> found(&job_.memory), doubtful(&job_.memory);
+    for (const CrossedQuad &quad : found_) (may_be_cavity(quad) ? doubtful : found).push_back(quad);
+    std::for_each(found.begin(), found.end(), put_at_gap);
+    const Array<Edge> edges = sorted_edges(doubtful);
     const auto is_shared = [&](const Edge &edge) {
       const auto [first, last] = std::equal_range(edges.begin(), edges.end(), edge);
       return last - first > 1;
     };
-    const auto is_of_sheet = [&](const CrossedQuad &quad) {
+    for (const CrossedQuad &quad : doubtful) {
       const std::array<Edge, 6> of_quad = edges_of(quad.tet);
-      return std::count_if(of_quad.begin(), of_quad.end(), is_shared) > 3;
-    };
-    const auto put_at_gap = [&](const CrossedQuad &quad) {
-      for (const std::int32_t v : quad.tet) at_gap[std::size_t(v)] = 1;
-    };
-    for (const CrossedQuad &quad : found_)
-      if (!may_be_cavity(quad) || is_of_sheet(quad)) put_at_gap(quad);
+      if (std::count_if(of_quad.begin(), of_quad.end(), is_shared) > 3) put_at_gap(quad);
+    }
     const auto is_cavity = [&](const CrossedQuad &quad) {
-      return may_be_cavity(quad) && std::none_of(quad.tet.begin(), quad.tet.end(),
-                                                 [&](std::int32_t v) { return at_gap[std::size_t(v)] != 0; });
+      return std::none_of(quad.tet.begin(), quad.tet.end(),
+                          [&](std::int32_t v) { return at_gap[std::size_t(v)] != 0; });
     };
-    found_.erase(std::remove_if(found_.begin(), found_.end(), is_cavity), found_.end());
-    for (const CrossedQuad &quad : found_) put_at_gap(quad);
+    doubtful.erase(std::remove_if(doubtful.begin(), doubtful.end(), is_cavity), doubtful.end());
+    std::for_each(doubtful.begin(), doubtful.end(), put_at_gap);
+    found.insert(found.end(), doubtful.begin(), doubtful.end());
+    found_ = std::move(found);
   }
 
   bool bounds_next_to_nothing(const CrossedQuad &quad) const {

@@ -379,4 +379,12 @@ bool renew_values(const Input &input, Job &job, Original &original) {
   return true;
 }
 
+bool has_finite_values(const Input &input, std::int64_t point) {
+  const auto is_finite = [point](const StridedArray &values) {
+    return point >= values.tuples || std::isfinite(values.real(point, 0));
+  };
+  return is_finite(input.scalars) && std::all_of(input.steering.begin(), input.steering.end(),
+                                                 [&](const SteeringField &field) { return is_finite(field.values); });
+}
+
 }  // namespace tetlod

@@ -116,4 +116,7 @@ void prepare_with_boundary(const Input &input, const Options &options, Job &job,
 /// False: it takes prepare_original, because the values change what the mesh is, or are none.
 bool renew_values(const Input &input, Job &job, Original &original);
 
+/// In all fields that steer, as far as these have a value for the submitted point.
+bool has_finite_values(const Input &input, std::int64_t point);
+
 }  // namespace tetlod

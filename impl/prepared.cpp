@@ -1,8 +1,5 @@
 #include "prepared.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "budget.hpp"
 #include "decimate_and_check.hpp"
 #include "solids.hpp"
@@ -31,17 +28,9 @@ Fingerprint fingerprint_of(Span<const double> values, const DecimateOptions &opt
 
 /// Which points have one, in whichever field: they and their tets are ignored.
 void add_nonfinite_values(const Input &input, Job &job, Fingerprint &mesh) {
-  const auto is_none = [](const StridedArray &values, std::int64_t v) {
-    return v < values.tuples && !std::isfinite(values.real(v, 0));
-  };
-  const auto is_ignored = [&](std::int64_t v) {
-    return is_none(input.scalars, v) ||
-           std::any_of(input.steering.begin(), input.steering.end(),
-                       [&](const SteeringField &field) { return is_none(field.values, v); });
-  };
   for (std::int64_t v = 0; v < input.scalars.tuples; v++) {
     job.poll_at(std::size_t(v), 0);
-    if (is_ignored(v)) mesh.add(std::uint64_t(v));
+    if (!has_finite_values(input, v)) mesh.add(std::uint64_t(v));
   }
 }
 

@@ -1,7 +1,6 @@
 #include "validate.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "budget.hpp"
 #include "extract_boundary.hpp"
@@ -86,18 +85,10 @@ class Inspector {
       } else if (!is_finite(points_[v])) {
         found_.nonfinite_points.add(name);
         used_[v] = 0;
-      } else if (!has_finite_values(std::int64_t(v))) {
+      } else if (!has_finite_values(input_, std::int64_t(v))) {
         found_.nonfinite_values.add(name);
       }
     }
-  }
-
-  bool has_finite_values(std::int64_t v) const {
-    const auto is_sound = [v](const StridedArray &values) {
-      return v >= values.tuples || std::isfinite(values.real(v, 0));
-    };
-    return is_sound(input_.scalars) && std::all_of(input_.steering.begin(), input_.steering.end(),
-                                                   [&](const SteeringField &field) { return is_sound(field.values); });
   }
 
   /// As a run does, and for its reason.

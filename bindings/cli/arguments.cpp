@@ -236,25 +236,25 @@ std::string overwritten_by(const Arguments &arguments, const std::string &part) 
   return is_part(arguments.report) ? "--report" : "";
 }
 
-// A link in the folder, by the name that a picture may have, to a file that is read or written.
+// A link in the folder, which a picture may have the name of, to a file that is read or written.
 void refuse_linked_pictures(const Arguments &arguments, const std::string &file) {
   std::error_code none;  // there is no such folder yet
   for (const auto &entry : std::filesystem::directory_iterator(arguments.pictures, none))
-    if (entry.is_symlink(none) && !file.empty() && same_file(entry.path().string(), file))
+    if (entry.is_symlink(none) && same_file(entry.path().string(), file))
       throw Failure(entry.path().string() + ": --pictures would overwrite " + file, kWrongUsage);
 }
 
 // A folder, made with those around it, in the place of a file that is read or written.
 void check_pictures(const Arguments &arguments) {
   using Path = std::filesystem::path;
-  for (Path folder = arguments.pictures; !folder.empty() && folder != folder.parent_path();
-       folder = folder.parent_path())
-    for (const std::string &file : {arguments.input, arguments.output, piece_of(arguments.output), arguments.report})
-      if (!file.empty() && same_file(folder.string(), file))
+  for (const std::string &file : {arguments.input, arguments.output, piece_of(arguments.output), arguments.report}) {
+    if (file.empty()) continue;
+    for (Path folder = arguments.pictures; !folder.empty() && folder != folder.parent_path();
+         folder = folder.parent_path())
+      if (same_file(folder.string(), file))
         throw Failure(arguments.pictures + ": --pictures would take the place of " + file, kWrongUsage);
-  refuse_linked_pictures(arguments, arguments.input);
-  refuse_linked_pictures(arguments, arguments.output);
-  refuse_linked_pictures(arguments, piece_of(arguments.output));
+    refuse_linked_pictures(arguments, file);
+  }
 }
 
 }  // namespace
